@@ -1,0 +1,258 @@
+#include "common/toml_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "common/error.hpp"
+
+namespace chute {
+
+bool Range::contains(double x) const {
+  return std::isfinite(x) && (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
+}
+
+std::string Range::describe() const {
+  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
+  if (has_low && has_high)
+    return fmt::format("in {}{}, {}{}", low_open ? '(' : '[', low, high, high_open ? ')' : ']');
+  if (has_low) return fmt::format("{} {}", low_open ? ">" : ">=", low);
+  if (has_high) return fmt::format("{} {}", high_open ? "<" : "<=", high);
+  return "finite";
+}
+
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+std::string shown(const toml::node& node) {
+  std::ostringstream text;
+  node.visit([&](const auto& n) { text << n; });
+  auto s = text.str();
+  return s.size() > 60 ? s.substr(0, 57) + "..." : s;
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, std::span<const std::string> known) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const auto& candidate : known) {
+    const auto distance = edit_distance(word, candidate);
+    if (distance < best_distance) best = candidate, best_distance = distance;
+  }
+  return best;
+}
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
+  }
+}
+
+void set_by_path(toml::table& table, std::string_view assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0)
+    throw InputError(fmt::format("--set {}: expected key=value", assignment));
+  const std::string key(assignment.substr(0, equals)), value(assignment.substr(equals + 1));
+  const std::string name = "--set " + key;
+  toml::table parsed;
+  try {
+    parsed = toml::parse("value = " + value, name);
+  } catch (const toml::parse_error&) {
+    try {
+      parsed = toml::parse(fmt::format("value = '{}'", value), name);  // a plain word
+    } catch (const toml::parse_error& error) {
+      throw InputError(fmt::format("{}: not a TOML value: {}", name, error.description()));
+    }
+  }
+  toml::table* inside = &table;
+  std::string_view rest = key;
+  for (;;) {
+    const auto dot = rest.find('.');
+    const auto part = rest.substr(0, dot);
+    if (part.empty()) throw InputError(name + ": empty key");
+    if (dot == std::string_view::npos) {
+      inside->insert_or_assign(part, std::move(*parsed.get("value")));
+      return;
+    }
+    auto* next = inside->get(part);
+    if (!next || !next->is_table()) next = &inside->insert_or_assign(part, toml::table{}).first->second;
+    inside = next->as_table();
+    rest.remove_prefix(dot + 1);
+  }
+}
+
+TomlReader::TomlReader(const toml::table& table, std::string document, std::string prefix)
+    : table_(&table), document_(std::move(document)), prefix_(std::move(prefix)) {}
+
+std::string TomlReader::path(std::string_view key) const {
+  return prefix_.empty() ? std::string(key) : prefix_ + "." + std::string(key);
+}
+
+std::string TomlReader::where(const toml::node* node) const {
+  const toml::source_region& source = node->source();
+  if (source.path && source.path->starts_with("--set")) return *source.path + ": ";
+  if (source.begin.line == 0) return document_ + ": ";
+  return fmt::format("{}:{}: ", document_, source.begin.line);
+}
+
+void TomlReader::fail(std::string_view key, const std::string& message) const {
+  const toml::node* node = table_->get(key);
+  throw InputError(where(node ? node : table_) + path(key) + ": " + message);
+}
+
+void TomlReader::missing(std::string_view key) const { fail(key, "missing, but required"); }
+
+void TomlReader::know(std::string_view key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+}
+
+void TomlReader::value(std::string_view key, double& target, Range range) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  if (!node->is_number()) fail(key, fmt::format("{} is not a number", shown(*node)));
+  const double x = *node->value<double>();
+  if (!range.contains(x)) fail(key, fmt::format("{} is not allowed, must be {}", x, range.describe()));
+  target = x;
+}
+
+void TomlReader::value(std::string_view key, std::int64_t& target, Range range) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  if (!node->is_integer()) fail(key, fmt::format("{} is not a whole number", shown(*node)));
+  const auto x = *node->value<std::int64_t>();
+  if (!range.contains(static_cast<double>(x)))
+    fail(key, fmt::format("{} is not allowed, must be {}", x, range.describe()));
+  target = x;
+}
+
+void TomlReader::value(std::string_view key, bool& target) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  if (!node->is_boolean()) fail(key, fmt::format("{} is not true or false", shown(*node)));
+  target = *node->value<bool>();
+}
+
+void TomlReader::value(std::string_view key, std::string& target) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  if (!node->is_string()) fail(key, fmt::format("{} is not a text in quotes", shown(*node)));
+  target = *node->value<std::string>();
+}
+
+void TomlReader::value(std::string_view key, std::vector<double>& target, Range range) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  const toml::array* array = node->as_array();
+  if (!array) fail(key, fmt::format("{} is not a list of numbers", shown(*node)));
+  target.clear();
+  for (const toml::node& item : *array) {
+    if (!item.is_number()) fail(key, fmt::format("{} in the list is not a number", shown(item)));
+    const double x = *item.value<double>();
+    if (!range.contains(x))
+      fail(key, fmt::format("{} in the list is not allowed, must be {}", x, range.describe()));
+    target.push_back(x);
+  }
+}
+
+void TomlReader::value(std::string_view key, std::vector<std::string>& target) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  const toml::array* array = node->as_array();
+  if (!array) fail(key, fmt::format("{} is not a list of texts", shown(*node)));
+  target.clear();
+  for (const toml::node& item : *array) {
+    if (!item.is_string()) fail(key, fmt::format("{} in the list is not a text in quotes", shown(item)));
+    target.push_back(*item.value<std::string>());
+  }
+}
+
+int TomlReader::choose(std::string_view key, int current, std::span<const std::string_view> words) {
+  know(key);
+  if (!has(key)) return current;
+  std::string word;
+  value(key, word);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (words[i] == word) return static_cast<int>(i);
+  const std::vector<std::string> known(words.begin(), words.end());
+  const auto hint = nearest(word, known);
+  fail(key, fmt::format("\"{}\" is not known{}, allowed: {}", word,
+                        hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint),
+                        fmt::join(words, ", ")));
+}
+
+TomlReader TomlReader::enter(std::string_view key) const {
+  const toml::table* inside = table_->get(key)->as_table();
+  if (!inside) fail(key, "must be a table: [" + path(key) + "]");
+  return TomlReader(*inside, document_, path(key));
+}
+
+TomlReader TomlReader::enter(std::string_view key, std::size_t index) const {
+  const toml::array& array = *table_->get(key)->as_array();
+  const toml::table* inside = array.get(index)->as_table();
+  if (!inside) fail(key, "must be a list of tables: [[" + path(key) + "]]");
+  return TomlReader(*inside, document_, fmt::format("{}[{}]", path(key), index));
+}
+
+std::size_t TomlReader::count(std::string_view key) const {
+  const toml::array* array = table_->get(key)->as_array();
+  if (!array) fail(key, "must be a list of tables: [[" + path(key) + "]]");
+  return array->size();
+}
+
+void TomlReader::finish() const {
+  for (const auto& [key, node] : *table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    const auto hint = nearest(key.str(), known_);
+    throw InputError(where(&node) + path(key.str()) + ": unknown key" +
+                     (hint.empty() ? fmt::format(", known: {}", fmt::join(known_, ", "))
+                                   : fmt::format(", did you mean {}?", hint)));
+  }
+}
+
+void TomlWriter::value(std::string_view key, const std::vector<double>& values, Range) {
+  toml::array array;
+  for (double x : values) array.push_back(x);
+  table_.insert_or_assign(key, std::move(array));
+}
+
+void TomlWriter::value(std::string_view key, const std::vector<std::string>& values) {
+  toml::array array;
+  for (const auto& x : values) array.push_back(x);
+  table_.insert_or_assign(key, std::move(array));
+}
+
+std::string TomlWriter::text() const {
+  std::ostringstream out;
+  out << table_ << '\n';
+  return std::move(out).str();
+}
+
+}  // namespace chute

@@ -1,0 +1,209 @@
+#pragma once
+#include <toml++/toml.h>
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Reading validated TOML. A type describes its keys once:
+///
+///     template <class Archive> void describe(Archive& a, Bed& bed) {
+///       a.required("diameter", bed.diameter, positive);
+///       a.value("count", bed.count, at_least(1));        // keeps the default that `bed` holds
+///     }
+///
+/// and that one list reads it (TomlReader), writes it back complete (TomlWriter), and knows which keys exist, so that
+/// a slip of the pen is answered with the file, the line and the nearest key.
+namespace chute {
+
+/// Allowed interval of a number.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;
+  bool contains(double x) const;
+  std::string describe() const;  ///< "> 0", "in [0, 1]" …
+};
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+inline constexpr Range any_number{};
+inline constexpr Range positive{0, unbounded, true, false};
+inline constexpr Range non_negative{0, unbounded, false, false};
+inline constexpr Range unit_interval{0, 1, false, false};
+inline constexpr Range at_least(double low) { return {low, unbounded, false, false}; }
+inline constexpr Range between(double low, double high) { return {low, high, false, false}; }
+
+/// The known word closest to `word` if it looks like a slip of it, else empty.
+std::string nearest(std::string_view word, std::span<const std::string> known);
+
+/// Reads TOML text; InputError `NAME:LINE: …` if it is not TOML.
+toml::table parse_toml(std::string_view text, const std::string& name);
+
+/// Applies `key.path=value` (a TOML value, or else a plain word) to the table. InputError if it is not of that form.
+void set_by_path(toml::table& table, std::string_view assignment);
+
+class TomlReader {
+ public:
+  /// `table` and `document` must outlive the reader. `prefix` is the dotted path of the table, empty for the root.
+  TomlReader(const toml::table& table, std::string document, std::string prefix = "");
+
+  static constexpr bool reading = true;
+
+  bool has(std::string_view key) const { return table_->contains(key); }
+
+  void value(std::string_view key, double& target, Range range = any_number);
+  void value(std::string_view key, std::int64_t& target, Range range = any_number);
+  void value(std::string_view key, bool& target);
+  void value(std::string_view key, std::string& target);
+  void value(std::string_view key, std::vector<double>& target, Range range = any_number);
+  void value(std::string_view key, std::vector<std::string>& target);
+
+  template <class T>
+  void value(std::string_view key, std::optional<T>& target, Range range = any_number) {
+    know(key);
+    if (!has(key)) return;
+    T read{};
+    if constexpr (std::same_as<T, double> || std::same_as<T, std::int64_t> ||
+                  std::same_as<T, std::vector<double>>)
+      value(key, read, range);
+    else
+      value(key, read);
+    target = std::move(read);
+  }
+
+  template <class T, class... Rule>
+  void required(std::string_view key, T& target, Rule... rule) {
+    know(key);
+    if (!has(key)) missing(key);
+    value(key, target, rule...);
+  }
+
+  /// One word out of `words`, stored as an enum whose values count from 0 in the same order.
+  template <class Enum>
+    requires std::is_enum_v<Enum>
+  void choice(std::string_view key, Enum& target, std::span<const std::string_view> words) {
+    target = static_cast<Enum>(choose(key, static_cast<int>(target), words));
+  }
+
+  /// A sub-table; kept as it is if absent.
+  template <class T>
+  void section(std::string_view key, T& target) {
+    know(key);
+    if (!has(key)) return;
+    TomlReader inside = enter(key);
+    describe(inside, target);
+    inside.finish();
+  }
+  template <class T>
+  void section(std::string_view key, std::optional<T>& target) {
+    know(key);
+    if (!has(key)) return;
+    section(key, target.emplace());
+  }
+  template <class T>
+  void required_section(std::string_view key, T& target) {
+    know(key);
+    if (!has(key)) missing(key);
+    section(key, target);
+  }
+  /// An array of tables: [[panel]].
+  template <class T>
+  void sections(std::string_view key, std::vector<T>& target) {
+    know(key);
+    if (!has(key)) return;
+    target.clear();
+    for (std::size_t i = 0; i < count(key); ++i) {
+      TomlReader inside = enter(key, i);
+      describe(inside, target.emplace_back());
+      inside.finish();
+    }
+  }
+
+  /// Refuses keys that nobody asked for.
+  void finish() const;
+
+  /// InputError at `key` (or at the table, if the key is absent).
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+  /// A rule that only the reader needs (checks between keys).
+  void check(bool holds, std::string_view key, const std::string& message) const {
+    if (!holds) fail(key, message);
+  }
+
+ private:
+  const toml::table* table_;
+  std::string document_, prefix_;
+  std::vector<std::string> known_;
+
+  void know(std::string_view key);
+  [[noreturn]] void missing(std::string_view key) const;
+  TomlReader enter(std::string_view key) const;
+  TomlReader enter(std::string_view key, std::size_t index) const;
+  std::size_t count(std::string_view key) const;
+  int choose(std::string_view key, int current, std::span<const std::string_view> words);
+  std::string path(std::string_view key) const;
+  std::string where(const toml::node* node) const;
+};
+
+/// Writes what TomlReader reads, every key with its value. Numbers are the shortest text that reads back the same.
+class TomlWriter {
+ public:
+  static constexpr bool reading = false;
+
+  template <class T>
+  void value(std::string_view key, const T& value, Range = any_number) {
+    table_.insert_or_assign(key, value);
+  }
+  void value(std::string_view key, const std::vector<double>& values, Range = any_number);
+  void value(std::string_view key, const std::vector<std::string>& values);
+  template <class T>
+  void value(std::string_view key, const std::optional<T>& optional, Range = any_number) {
+    if (optional) value(key, *optional);
+  }
+  template <class T, class... Rule>
+  void required(std::string_view key, const T& v, Rule... rule) {
+    value(key, v, rule...);
+  }
+  template <class Enum>
+  void choice(std::string_view key, Enum& value, std::span<const std::string_view> words) {
+    table_.insert_or_assign(key, std::string(words[static_cast<std::size_t>(value)]));
+  }
+  template <class T>
+  void section(std::string_view key, T& target) {
+    TomlWriter inside;
+    describe(inside, target);
+    table_.insert_or_assign(key, std::move(inside.table_));
+  }
+  template <class T>
+  void section(std::string_view key, std::optional<T>& target) {
+    if (target) section(key, *target);
+  }
+  template <class T>
+  void required_section(std::string_view key, T& target) {
+    section(key, target);
+  }
+  template <class T>
+  void sections(std::string_view key, std::vector<T>& targets) {
+    toml::array array;
+    for (auto& target : targets) {
+      TomlWriter inside;
+      describe(inside, target);
+      array.push_back(std::move(inside.table_));
+    }
+    table_.insert_or_assign(key, std::move(array));
+  }
+  void check(bool, std::string_view, const std::string&) const {}
+
+  std::string text() const;
+
+ private:
+  toml::table table_;
+};
+
+}  // namespace chute
