@@ -1,0 +1,14 @@
+#pragma once
+#include "common/toml_reader.hpp"
+#include "scene/scene.hpp"
+
+namespace chute::scene {
+
+/// Keys of [contact.normal] and [contact.tangential]. A new law gets its word and its keys here.
+void describe(TomlReader& a, ContactSpec& contact);
+void describe(TomlWriter& a, ContactSpec& contact);
+
+/// Refuses over-damped contacts: they never end, so they have no contact time and no restitution.
+void check_contact_time(const Scene& scene, const TomlReader& reader);
+
+}  // namespace chute::scene

@@ -1,0 +1,220 @@
+#include "scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "common/toml_reader.hpp"
+#include "scene/contact.hpp"
+
+namespace chute::scene {
+namespace {
+
+using namespace std::string_view_literals;
+constexpr std::array units_words{"reduced"sv, "SI"sv};
+constexpr std::array bed_words{"row"sv, "disordered-row"sv, "none"sv};
+constexpr std::array lattice_words{"square"sv, "none"sv};
+constexpr std::array method_words{"soft"sv};
+constexpr std::array integrator_words{"gear5"sv, "verlet"sv};
+
+/// "18 deg" or "0.3 rad" in radians; nothing if it is neither.
+std::optional<double> parse_angle(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  if (error != std::errc{} || !std::isfinite(value)) return {};
+  if (unit == "deg") return value * std::numbers::pi / 180;
+  if (unit == "rad") return value;
+  return {};
+}
+
+}  // namespace
+
+// Outside the unnamed namespace: the archives find these by the type that they describe.
+
+template <class Archive>
+static void describe(Archive& a, Incline& incline) {
+  a.value("angle", incline.angle);
+  a.value("sin", incline.sine, between(-1, 1));
+  a.value("gravity", incline.gravity, non_negative);
+  if constexpr (Archive::reading) {
+    a.check(incline.angle.has_value() != incline.sine.has_value(), incline.angle ? "sin" : "angle",
+            "give either angle = \"18 deg\" or sin = 0.31");
+    if (incline.angle) {
+      const auto theta = parse_angle(*incline.angle);
+      a.check(theta.has_value(), "angle",
+              fmt::format("\"{}\" is not an angle, write \"18 deg\" or \"0.3 rad\"", *incline.angle));
+      a.check(std::abs(*theta) <= std::numbers::pi / 2, "angle",
+              fmt::format("\"{}\" is not allowed, must be between -90 deg and 90 deg", *incline.angle));
+    }
+  }
+}
+
+template <class Archive>
+static void describe(Archive& a, Bed& bed) {
+  a.choice("kind", bed.kind, bed_words);
+  a.value("diameter", bed.diameter, positive);
+  if (bed.kind == Bed::Kind::none) {
+    a.required("length", bed.length, positive);
+    return;
+  }
+  a.required("count", bed.count, between(3, 1e7));
+  if (bed.kind == Bed::Kind::row) a.value("gap", bed.gap, between(0, 10));
+  if (bed.kind == Bed::Kind::disordered_row) a.required("gap_max", bed.gap_max, between(0, 10));
+}
+
+template <class Archive>
+static void describe(Archive& a, Diameter& diameter) {
+  a.required("mean", diameter.mean, positive);
+  a.value("std", diameter.std, non_negative);
+  a.check(3 * diameter.std < diameter.mean, "std",
+          "must be less than a third of the mean: sizes are cut off at three standard deviations");
+}
+
+template <class Archive>
+static void describe(Archive& a, Start& start) {
+  a.choice("lattice", start.lattice, lattice_words);
+  if (start.lattice == Start::Lattice::square) a.value("spacing", start.spacing, positive);
+  if (start.lattice == Start::Lattice::none) a.value("x", start.x);
+  a.value("height", start.height);
+  a.value("velocity", start.velocity);
+  a.value("velocity_up", start.velocity_up);
+  a.value("spread", start.spread, non_negative);
+}
+
+template <class Archive>
+static void describe(Archive& a, GrainsSpec& grains) {
+  a.required("count", grains.count, between(1, 1e7));
+  a.section("diameter", grains.diameter);
+  a.value("size_ratio", grains.size_ratio, positive);
+  a.value("density", grains.density, positive);
+  a.section("start", grains.start);
+  if constexpr (Archive::reading) {
+    a.check(grains.diameter.has_value() != grains.size_ratio.has_value(),
+            grains.diameter ? "size_ratio" : "diameter",
+            "give either diameter = { mean = …, std = … } or size_ratio = R/r");
+    a.check(grains.count == 1 || grains.start.lattice == Start::Lattice::square, "start",
+            "lattice = \"none\" starts a single grain; use lattice = \"square\" for more");
+  }
+}
+
+template <class Archive>
+static void describe(Archive& a, EngineSpec& engine) {
+  a.choice("method", engine.method, method_words);
+  a.choice("integrator", engine.integrator, integrator_words);
+  a.value("steps_per_contact", engine.steps_per_contact, at_least(5));
+  a.value("time_step", engine.time_step, positive);
+  a.value("deepest_overlap", engine.deepest_overlap, Range{0, 1, true, false});
+}
+
+template <class Archive>
+static void describe(Archive& a, Every& every) {
+  a.required("every", every.every, positive);
+  a.value("from", every.from, non_negative);
+}
+
+template <class Archive>
+static void describe(Archive& a, ProfileSpec& profiles) {
+  a.value("from", profiles.from, non_negative);
+  a.value("bin", profiles.bin, positive);
+  a.value("every", profiles.every, positive);
+}
+
+template <class Archive>
+static void describe(Archive& a, ImpactSpec& impacts) {
+  a.value("from", impacts.from, non_negative);
+}
+
+template <class Archive>
+static void describe(Archive& a, OutputSpec& output) {
+  a.section("frames", output.frames);
+  a.section("series", output.series);
+  a.section("profiles", output.profiles);
+  a.section("impacts", output.impacts);
+  a.value("contacts", output.contacts);
+  a.value("checkpoint", output.checkpoint, positive);
+  a.check(!output.contacts || output.frames, "contacts",
+          "the contact network is written beside frames; ask for frames = { every = … }");
+}
+
+struct Run {
+  double& duration;
+};
+template <class Archive>
+static void describe(Archive& a, Run& run) {
+  a.required("duration", run.duration, positive);
+}
+
+template <class Archive>
+static void describe(Archive& a, Scene& scene) {
+  a.value("title", scene.title);
+  a.choice("units", scene.units, units_words);
+  a.value("seed", scene.seed, non_negative);
+  const bool reduced = scene.units == Units::reduced;
+  if constexpr (Archive::reading) {
+    scene.incline.gravity = reduced ? 1 : 9.81;
+    if (reduced) scene.grains.density = 6 / std::numbers::pi;
+  }
+  a.required_section("incline", scene.incline);
+  a.required_section("bed", scene.bed);
+  a.required_section("grains", scene.grains);
+  a.required_section("contact", scene.contact);
+  a.section("engine", scene.engine);
+  Run run{scene.duration};
+  a.required_section("run", run);
+  if constexpr (Archive::reading) {
+    a.check(scene.grains.density > 0, "grains", "density is missing; SI scenes need it (kg/m³)");
+    const double d = scene.bed.diameter, g = scene.incline.gravity;
+    scene.output.series.every = scene.duration / 400;
+    scene.output.checkpoint = scene.duration / 10;
+    if (a.has("output")) {
+      a.section("output", scene.output);
+      if (scene.output.profiles) {
+        auto& every = scene.output.profiles->every;
+        if (!every) every = g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4;
+      }
+    }
+  } else {
+    a.section("output", scene.output);
+  }
+}
+
+double Incline::theta() const { return sine ? std::asin(*sine) : parse_angle(*angle).value(); }
+
+double Scene::mean_diameter() const {
+  return grains.diameter ? grains.diameter->mean : *grains.size_ratio * bed.diameter;
+}
+double Scene::mean_mass() const {
+  return grains.density * std::numbers::pi / 6 * std::pow(mean_diameter(), 3);
+}
+double Scene::reference_mass() const { return grains.count > 1 ? mean_mass() / 2 : mean_mass(); }
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings) {
+  toml::table table = parse_toml(text, name);
+  for (const auto& setting : settings) set_by_path(table, setting);
+  TomlReader reader(table, name);
+  Scene scene;
+  describe(reader, scene);
+  reader.finish();
+  check_contact_time(scene, reader);
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  return parse_scene(read_file(file), file.string(), settings);
+}
+
+std::string to_toml(const Scene& scene) {
+  TomlWriter writer;
+  Scene copy = scene;
+  describe(writer, copy);
+  return writer.text();
+}
+
+}  // namespace chute::scene

@@ -1,0 +1,93 @@
+#include "scene/start.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "core/random.hpp"
+
+namespace chute::scene {
+namespace {
+
+/// Centres of the bed along x, and the length after which they repeat.
+std::pair<std::vector<double>, double> bed_line(const Scene& scene) {
+  const Bed& bed = scene.bed;
+  if (bed.kind == Bed::Kind::none) return {{}, *bed.length};
+  const double r = bed.diameter / 2;
+  Random random(static_cast<std::uint64_t>(scene.seed), Purpose::bed);
+  std::vector<double> centres;
+  double x = r;
+  for (std::int64_t i = 0; i < bed.count; ++i) {
+    centres.push_back(x);
+    const double eps = bed.kind == Bed::Kind::row ? bed.gap : random.uniform(0, bed.gap_max);
+    x += 2 * r * (1 + eps);
+  }
+  return {centres, x - r};
+}
+
+void add_sphere(Grains<2>& grains, Vec<2> place, double radius, double density, bool moves) {
+  const double mass = density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+  grains.add(place, radius, mass, 0.4 * mass * radius * radius, moves);
+}
+
+void start_lattice(const Scene& scene, const std::vector<double>& radii, double length, Grains<2>& grains) {
+  const Start& start = scene.grains.start;
+  const double d = scene.mean_diameter();
+  const double spacing = start.spacing.value_or(1.25 * d);
+  const auto columns = static_cast<std::int64_t>(std::floor(length / spacing * (1 + 1e-12)));
+  double largest = 0;
+  for (double r : radii) largest = std::max(largest, r);
+  if (columns < 1 || 2 * largest > spacing)
+    throw InputError(fmt::format("grains.start.spacing: {} is too small for grains of diameter {:.4g} or too "
+                                 "large for a line of length {:.4g}",
+                                 spacing, 2 * largest, length));
+  const double lowest = start.height.value_or(scene.bed.diameter / 2 + 1.5 * d);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const auto column = static_cast<std::int64_t>(i) % columns, row = static_cast<std::int64_t>(i) / columns;
+    const Vec<2> place{{(static_cast<double>(column) + 0.5) * length / static_cast<double>(columns),
+                        lowest + static_cast<double>(row) * spacing}};
+    add_sphere(grains, place, radii[i], scene.grains.density, true);
+  }
+}
+
+}  // namespace
+
+Start2D make_start(const Scene& scene) {
+  Start2D made;
+  const auto [bed, length] = bed_line(scene);
+  const double d = scene.mean_diameter(), r_bed = scene.bed.diameter / 2;
+  made.domain.length[0] = length;
+  const double needed = 2 * std::max(d, scene.bed.diameter) * 1.7;
+  if (length < needed)
+    throw InputError(fmt::format("bed.count: a periodic line of length {:.4g} is too short for grains of "
+                                 "diameter {:.4g}: a grain would touch its own image; needed {:.4g}",
+                                 length, d, needed));
+
+  const auto seed = static_cast<std::uint64_t>(scene.seed);
+  Random sizes(seed, Purpose::sizes), velocities(seed, Purpose::start);
+  const double std = scene.grains.diameter ? scene.grains.diameter->std : 0;
+  std::vector<double> radii;
+  while (radii.size() < static_cast<std::size_t>(scene.grains.count)) {
+    const double z = std > 0 ? sizes.normal() : 0;
+    if (std::abs(z) <= 3) radii.push_back((d + std * z) / 2);
+  }
+
+  const Start& start = scene.grains.start;
+  if (start.lattice == Start::Lattice::square) {
+    start_lattice(scene, radii, length, made.grains);
+  } else {
+    const double gap = bed.size() > 1 ? (bed[0] + bed[1]) / 2 : length / 2;
+    const Vec<2> place{{start.x.value_or(gap), start.height.value_or(r_bed + radii[0] + 0.05 * r_bed)}};
+    add_sphere(made.grains, place, radii[0], scene.grains.density, true);
+  }
+  for (std::size_t i = 0; i < made.grains.moving; ++i) {
+    made.grains.velocity[0][i] = start.velocity + start.spread * velocities.normal();
+    made.grains.velocity[1][i] = start.velocity_up + start.spread * velocities.normal();
+  }
+  for (double x : bed) add_sphere(made.grains, {{x, 0}}, r_bed, scene.grains.density, false);
+  return made;
+}
+
+}  // namespace chute::scene

@@ -1,0 +1,17 @@
+#pragma once
+#include "core/domain.hpp"
+#include "core/grains.hpp"
+#include "scene/scene.hpp"
+
+namespace chute::scene {
+
+struct Start2D {
+  Grains<2> grains;
+  Domain<2> domain;
+};
+
+/// Grains and bed as the scene starts them: moving grains first, then the bed. The same scene and seed give the same
+/// grains. InputError if the grains do not fit.
+Start2D make_start(const Scene& scene);
+
+}  // namespace chute::scene

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+
+#include "search/pairs.hpp"
+
+namespace chute::search {
+namespace {
+
+template <int D>
+bool within(const Grains<D>& grains, const Domain<D>& domain, std::size_t i, std::size_t j, double skin) {
+  const double reach = grains.radius[i] + grains.radius[j] + skin;
+  const auto way = domain.way(grains.place(i), grains.place(j));
+  return dot(way, way) < reach * reach;
+}
+
+/// A box of cells around all grains; a cell is at least as wide as the farthest pair that may touch.
+template <int D>
+struct Layout {
+  Vec<D> lower{}, width{};
+  std::array<int, D> count{};
+
+  Layout(const Grains<D>& grains, const Domain<D>& domain, double skin) {
+    const double reach = 2 * *std::max_element(grains.radius.begin(), grains.radius.end()) + skin;
+    // A grain far away must not cost memory: no more cells than a few per grain.
+    const double most = std::pow(4.0 * static_cast<double>(grains.size()) + 64, 1.0 / D) * 4;
+    for (int k = 0; k < D; ++k) {
+      double length = domain.length[k];
+      lower[k] = domain.lower[k];
+      if (!domain.periodic(k)) {
+        const auto [low, high] = std::minmax_element(grains.position[k].begin(), grains.position[k].end());
+        lower[k] = *low;
+        length = std::max(*high - *low, reach) * (1 + 1e-12);
+      }
+      count[k] = static_cast<int>(std::clamp(std::floor(length / reach), 1.0, most));
+      width[k] = length / count[k];
+    }
+  }
+  int total() const {
+    int n = 1;
+    for (int k = 0; k < D; ++k) n *= count[k];
+    return n;
+  }
+  int index_along(int k, double x) const {
+    return std::clamp(static_cast<int>(std::floor((x - lower[k]) / width[k])), 0, count[k] - 1);
+  }
+  int flat(const std::array<int, D>& c) const {
+    int n = 0;
+    for (int k = 0; k < D; ++k) n = n * count[k] + c[k];
+    return n;
+  }
+};
+
+}  // namespace
+
+template <int D>
+void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs) {
+  const Layout<D> layout(grains, domain, skin);
+  const std::size_t n = grains.size();
+  const auto cell_at = [&](std::size_t i) {
+    std::array<int, D> c;
+    for (int k = 0; k < D; ++k) c[k] = layout.index_along(k, grains.position[k][i]);
+    return c;
+  };
+
+  // Sort grains by cell: count, then place.
+  start_.assign(static_cast<std::size_t>(layout.total()) + 1, 0);
+  cell_of_.resize(n);
+  member_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    cell_of_[i] = layout.flat(cell_at(i));
+    ++start_[cell_of_[i] + 1];
+  }
+  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
+  for (std::size_t i = n; i-- > 0;) {  // backwards through the grains: ids ascend within a cell
+    const auto cell = static_cast<std::size_t>(cell_of_[i]) + 1;
+    member_[--start_[cell]] = static_cast<std::int32_t>(i);
+  }
+  // After the loop start_[c + 1] is where cell c begins; the end of cell c is the begin of c + 1.
+  const auto begin_of = [&](int c) { return start_[static_cast<std::size_t>(c) + 1]; };
+  const auto end_of = [&](int c) {
+    return static_cast<std::size_t>(c) + 2 < start_.size() ? start_[static_cast<std::size_t>(c) + 2]
+                                                           : static_cast<std::int32_t>(n);
+  };
+
+  pairs.clear();
+  int neighbours = 1;
+  for (int k = 0; k < D; ++k) neighbours *= 3;
+  for (std::size_t i = 0; i < grains.moving; ++i) {
+    row_.clear();
+    const auto home = cell_at(i);
+    std::array<int, 27> seen;  // with fewer than three periodic cells a neighbour can appear twice
+    int seen_count = 0;
+    for (int way = 0; way < neighbours; ++way) {
+      auto cell = home;
+      bool inside = true;
+      for (int k = 0, w = way; k < D; ++k, w /= 3) {
+        cell[k] += w % 3 - 1;
+        if (domain.periodic(k))
+          cell[k] = (cell[k] + layout.count[k]) % layout.count[k];
+        else
+          inside = inside && cell[k] >= 0 && cell[k] < layout.count[k];
+      }
+      if (!inside) continue;
+      const int flat = layout.flat(cell);
+      if (std::find(seen.begin(), seen.begin() + seen_count, flat) != seen.begin() + seen_count) continue;
+      seen[static_cast<std::size_t>(seen_count++)] = flat;
+      for (auto m = begin_of(flat); m < end_of(flat); ++m) {
+        const auto j = static_cast<std::size_t>(member_[static_cast<std::size_t>(m)]);
+        if (j > i && within(grains, domain, i, j, skin)) row_.push_back(static_cast<std::int32_t>(j));
+      }
+    }
+    std::sort(row_.begin(), row_.end());
+    for (const auto j : row_)
+      pairs.add(static_cast<std::int32_t>(i), j, grains.radius[i] + grains.radius[static_cast<std::size_t>(j)]);
+  }
+}
+
+template <int D>
+void all_pairs(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs) {
+  pairs.clear();
+  for (std::size_t i = 0; i < grains.moving; ++i)
+    for (std::size_t j = i + 1; j < grains.size(); ++j)
+      if (within(grains, domain, i, j, skin))
+        pairs.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j),
+                  grains.radius[i] + grains.radius[j]);
+}
+
+template class CellGrid<2>;
+template class CellGrid<3>;
+template void all_pairs(const Grains<2>&, const Domain<2>&, double, PairList&);
+template void all_pairs(const Grains<3>&, const Domain<3>&, double, PairList&);
+
+}  // namespace chute::search

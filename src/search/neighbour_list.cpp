@@ -1,0 +1,103 @@
+#include "search/neighbour_list.hpp"
+
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/not_a_number.hpp"
+
+namespace chute::search {
+namespace {
+
+/// Has any grain moved farther than the limit? A place that is not a number counts as moved.
+template <int D>
+struct MovedKernel {
+  std::array<const double*, D> now, before;
+  Vec<D> length, half;
+  double limit_squared;
+  std::size_t count;
+  std::int64_t* any;
+
+  void operator()() const {
+    const auto r = now, r0 = before;  // copies: the compiler then knows that they do not change in the loop
+    const auto full = length, fold = half;
+    const double limit = limit_squared;
+    const auto n = count;
+    std::int64_t found = 0;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t i = 0; i < n; ++i) {
+      double d2 = 0;
+      for (int k = 0; k < D; ++k) {
+        const double d = Domain<D>::nearest_image(r[k][i] - r0[k][i], full[k], fold[k]);
+        d2 += d * d;
+      }
+      found |= !(d2 <= limit);
+    }
+    *any = found;
+  }
+};
+
+}  // namespace
+
+template <int D>
+NeighbourList<D>::NeighbourList(const Domain<D>& domain, Skins skins, Method method, Isa isa)
+    : domain_(domain), skins_(skins), method_(method), isa_(isa) {}
+
+template <int D>
+bool NeighbourList<D>::moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit) const {
+  std::int64_t any = 0;
+  MovedKernel<D> kernel{
+      {}, {}, domain_.length, 0.5 * domain_.length, limit * limit, grains.moving, &any};
+  for (int k = 0; k < D; ++k) kernel.now[k] = grains.position[k].data(), kernel.before[k] = since[k].data();
+  run_kernel(isa_, kernel);
+  return any != 0;
+}
+
+template <int D>
+void NeighbourList<D>::remember(const Grains<D>& grains, std::array<Array, D>& places) const {
+  for (int k = 0; k < D; ++k)
+    places[k].assign(grains.position[k].begin(),
+                     grains.position[k].begin() + static_cast<std::ptrdiff_t>(grains.moving));
+}
+
+template <int D>
+void NeighbourList<D>::build_far(const Grains<D>& grains) {
+  for (std::size_t i = 0; i < grains.moving; ++i)
+    for (int k = 0; k < D; ++k)
+      if (!std::isfinite(grains.position[k][i])) throw NotANumber{i};
+  if (method_ == Method::cells)
+    grid_.find(grains, domain_, skins_.far, far_);
+  else
+    all_pairs(grains, domain_, skins_.far, far_);
+  remember(grains, far_places_);
+  ++far_builds_;
+}
+
+template <int D>
+void NeighbourList<D>::build_near(const Grains<D>& grains) {
+  near_.clear();
+  for (std::size_t p = 0; p < far_.size(); ++p) {
+    const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
+    const auto way = domain_.way(grains.place(i), grains.place(j));
+    const double reach = grains.radius[i] + grains.radius[j];
+    if (dot(way, way) < (reach + skins_.near) * (reach + skins_.near)) near_.add(far_.i[p], far_.j[p], reach);
+  }
+  remember(grains, near_places_);
+  ++near_builds_;
+}
+
+template <int D>
+const PairList& NeighbourList<D>::near(const Grains<D>& grains) {
+  const bool first = near_builds_ == 0;
+  if (first || moved(grains, near_places_, skins_.near / 2)) {
+    // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the way moved.
+    if (first || moved(grains, far_places_, (skins_.far - skins_.near) / 2)) build_far(grains);
+    build_near(grains);
+  }
+  return near_;
+}
+
+template class NeighbourList<2>;
+template class NeighbourList<3>;
+
+}  // namespace chute::search

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+
+#include "core/kernel.hpp"
+#include "search/pairs.hpp"
+
+namespace chute::search {
+
+enum class Method { cells, all_pairs };
+
+/// Verlet lists on two levels. The far list holds all pairs with a gap below the far skin and is found through the
+/// cell grid; the near list is the part of it with a gap below the near skin, and is what every step looks through.
+/// A near list is made anew from the far one when some grain has moved half the near skin since, a far list from the
+/// grid when that no longer guarantees that it holds every pair of the next near list. Both bounds are exact, so no
+/// contact is ever missed. Steps in between allocate and build nothing.
+template <int D>
+class NeighbourList {
+ public:
+  struct Skins {
+    double near, far;  ///< gaps between surfaces, lengths; near < far
+  };
+
+  NeighbourList(const Domain<D>& domain, Skins skins, Method method = Method::cells, Isa isa = best_isa());
+
+  /// Pairs that may touch now. WorkError if a place is not a number.
+  const PairList& near(const Grains<D>& grains);
+
+  std::int64_t near_builds() const { return near_builds_; }
+  std::int64_t far_builds() const { return far_builds_; }
+
+ private:
+  Domain<D> domain_;
+  Skins skins_;
+  Method method_;
+  Isa isa_;
+  CellGrid<D> grid_;
+  PairList far_, near_;
+  std::array<Array, D> near_places_, far_places_;  // of the moving grains, when each list was made
+  std::int64_t near_builds_ = 0, far_builds_ = 0;
+
+  bool moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit) const;
+  void remember(const Grains<D>& grains, std::array<Array, D>& places) const;
+  void build_far(const Grains<D>& grains);
+  void build_near(const Grains<D>& grains);
+};
+
+}  // namespace chute::search

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/grains.hpp"
+
+namespace chute::search {
+
+/// Pairs of grains that may touch, i < j, ordered by i and then by j. Everything that sums over contacts does so in
+/// this order, so results depend only on who touches whom, not on when or how a list was built: a resumed run, another
+/// skin, or the all-pairs twin give the same bytes. Pairs of two fixed grains are left out.
+struct PairList {
+  std::vector<std::int32_t> i, j;
+  Array reach_squared;  ///< (R_i + R_j)²: the pair touches when its distance squared is less
+
+  std::size_t size() const { return i.size(); }
+  void clear() {
+    i.clear();
+    j.clear();
+    reach_squared.clear();
+  }
+  void add(std::int32_t first, std::int32_t second, double reach) {
+    i.push_back(first);
+    j.push_back(second);
+    reach_squared.push_back(reach * reach);
+  }
+};
+
+/// All pairs with a gap of less than `skin` between their surfaces, found through a grid of cells: O(N).
+template <int D>
+class CellGrid {
+ public:
+  void find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs);
+
+ private:
+  std::vector<std::int32_t> cell_of_, start_, member_, row_;  // kept, so that a rebuild allocates nothing new
+};
+
+/// The slow exact twin of CellGrid: looks at every pair, O(N²).
+template <int D>
+void all_pairs(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs);
+
+}  // namespace chute::search

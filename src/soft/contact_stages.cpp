@@ -1,0 +1,263 @@
+#include "soft/contact_stages.hpp"
+
+namespace chute::soft {
+namespace {
+
+template <std::size_t K>
+std::array<const double*, K> pointers(const std::array<Array, K>& arrays) {
+  std::array<const double*, K> p;
+  for (std::size_t k = 0; k < K; ++k) p[k] = arrays[k].data();
+  return p;
+}
+template <std::size_t K>
+std::array<double*, K> pointers(std::array<Array, K>& arrays) {
+  std::array<double*, K> p;
+  for (std::size_t k = 0; k < K; ++k) p[k] = arrays[k].data();
+  return p;
+}
+
+/// Which pairs touch? Most do not; this is the loop that a run spends most of its time in.
+template <int D>
+struct TouchKernel {
+  std::array<const double*, D> place;
+  const std::int32_t *first, *second;
+  const double* reach_squared;
+  Vec<D> length, half;
+  std::size_t count;
+  std::int64_t* hit;
+
+  void operator()() const {
+    const auto r = place;
+    const auto *i = first, *j = second;
+    const auto* reach2 = reach_squared;
+    const auto full = length, fold = half;
+    const auto n = count;
+    auto* out = hit;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t p = 0; p < n; ++p) {
+      double d2 = 0;
+      for (int k = 0; k < D; ++k) {
+        const double d = Domain<D>::nearest_image(r[k][j[p]] - r[k][i[p]], full[k], fold[k]);
+        d2 += d * d;
+      }
+      out[p] = d2 < reach2[p];
+    }
+  }
+};
+
+/// Frame and relative motion of each contact: (2.3), (2.4), (2.6), (2.7).
+template <int D>
+struct GeometryKernel {
+  static constexpr int T = turns<D>;
+  std::array<const double*, D> place, velocity;
+  std::array<const double*, T> spin;
+  const double *radius, *inverse_mass;
+  const std::int32_t *first, *second;
+  Vec<D> length, half;
+  std::size_t count;
+  std::array<double*, D> normal;
+  double *overlap, *closing, *m_eff;
+  std::array<double*, T> slip;
+
+  void operator()() const {
+    const auto r = place, v = velocity;
+    const auto w = spin;
+    const auto *R = radius, *inv_m = inverse_mass;
+    const auto *fi = first, *se = second;
+    const auto full = length, fold = half;
+    const auto count_ = count;
+    const auto n_out = normal;
+    auto *xi_out = overlap, *closing_out = closing, *m_out = m_eff;
+    const auto slip_out = slip;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t c = 0; c < count_; ++c) {
+      const auto i = fi[c], j = se[c];
+      Vec<D> n, dv;
+      for (int k = 0; k < D; ++k) {
+        n[k] = Domain<D>::nearest_image(r[k][j] - r[k][i], full[k], fold[k]);
+        dv[k] = v[k][j] - v[k][i];
+      }
+      const double distance = std::sqrt(dot(n, n));
+      const double inverse = 1 / distance;
+      for (int k = 0; k < D; ++k) n[k] *= inverse;
+      const double v_n = dot(dv, n);
+      if constexpr (D == 2) {
+        // (1.14) with s = (n_y, −n_x)
+        slip_out[0][c] = dv[0] * n[1] - dv[1] * n[0] + R[i] * w[0][i] + R[j] * w[0][j];
+      } else {
+        // (2.7), with the sum of the spins (the printed difference contradicts (1.14))
+        Vec<3> spin_sum;
+        for (int k = 0; k < 3; ++k) spin_sum[k] = R[i] * w[k][i] + R[j] * w[k][j];
+        const auto turn = cross(n, spin_sum);
+        for (int k = 0; k < 3; ++k) slip_out[k][c] = dv[k] - v_n * n[k] + turn[k];
+      }
+      for (int k = 0; k < D; ++k) n_out[k][c] = n[k];
+      xi_out[c] = R[i] + R[j] - distance;
+      closing_out[c] = -v_n;
+      m_out[c] = 1 / (inv_m[i] + inv_m[j]);
+    }
+  }
+};
+
+template <class Law>
+struct NormalKernel {
+  Law law;
+  const double *overlap, *closing, *m_eff;
+  std::size_t count;
+  double *force, *loss;
+
+  void operator()() const {
+    const Law f = law;
+    const auto *xi = overlap, *dxi = closing, *m = m_eff;
+    const auto n = count;
+    auto *force_out = force, *loss_out = loss;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t c = 0; c < n; ++c) {
+      const auto result = f(xi[c], dxi[c], m[c]);
+      force_out[c] = result.total;
+      loss_out[c] = result.loss_rate;
+    }
+  }
+};
+
+template <class Law, int T>
+struct ShearKernel {
+  Law law;
+  std::array<const double*, T> slip;
+  const double *normal_force, *m_eff;
+  std::size_t count;
+  std::array<double*, T> force;
+  double* loss;
+
+  void operator()() const {
+    const Law f = law;
+    const auto v_s = slip;
+    const auto *f_n = normal_force, *m = m_eff;
+    const auto n = count;
+    const auto force_out = force;
+    auto* loss_out = loss;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t c = 0; c < n; ++c) {
+      Vec<T> v;
+      for (int k = 0; k < T; ++k) v[k] = v_s[k][c];
+      const Vec<T> result = f(v, f_n[c], m[c]);
+      for (int k = 0; k < T; ++k) force_out[k][c] = result[k];
+      loss_out[c] = -dot(result, v);
+    }
+  }
+};
+
+}  // namespace
+
+template <int D>
+void Contacts<D>::reserve(std::size_t most) {
+  if (i.size() >= most) return;
+  i.resize(most);
+  j.resize(most);
+  for (auto& a : normal) a.resize(most);
+  for (auto& a : slip) a.resize(most);
+  for (auto& a : shear_force) a.resize(most);
+  for (auto* a : {&overlap, &closing, &m_eff, &normal_force, &normal_loss, &shear_loss}) a->resize(most);
+}
+
+template <int D>
+ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa)
+    : domain_(domain), laws_(laws), isa_(isa) {}
+
+template <int D>
+void ContactStages<D>::find_touching(const search::PairList& pairs, const Grains<D>& grains,
+                                     Contacts<D>& contacts) {
+  const std::size_t n = pairs.size();
+  if (hit_.size() < n) hit_.resize(n), touching_.resize(n + 1);
+  run_kernel(isa_, TouchKernel<D>{pointers(grains.position), pairs.i.data(), pairs.j.data(),
+                                  pairs.reach_squared.data(), domain_.length, 0.5 * domain_.length, n,
+                                  hit_.data()});
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < n; ++p) {  // without a branch: which pairs touch is not predictable
+    touching_[count] = static_cast<std::int32_t>(p);
+    count += static_cast<std::size_t>(hit_[p]);
+  }
+  contacts.reserve(count);
+  contacts.count = count;
+  for (std::size_t c = 0; c < count; ++c) {
+    contacts.i[c] = pairs.i[static_cast<std::size_t>(touching_[c])];
+    contacts.j[c] = pairs.j[static_cast<std::size_t>(touching_[c])];
+  }
+}
+
+template <int D>
+void ContactStages<D>::geometry(const Grains<D>& grains, Contacts<D>& contacts) const {
+  run_kernel(isa_, GeometryKernel<D>{pointers(grains.position), pointers(grains.velocity),
+                                     pointers(grains.spin), grains.radius.data(), grains.inverse_mass.data(),
+                                     contacts.i.data(), contacts.j.data(), domain_.length,
+                                     0.5 * domain_.length, contacts.count, pointers(contacts.normal),
+                                     contacts.overlap.data(), contacts.closing.data(), contacts.m_eff.data(),
+                                     pointers(contacts.slip)});
+}
+
+template <int D>
+void ContactStages<D>::evaluate(const search::PairList& pairs, const Grains<D>& grains,
+                                Contacts<D>& contacts) {
+  find_touching(pairs, grains, contacts);
+  geometry(grains, contacts);
+  std::visit(
+      [&]<class Law>(const Law& law) {
+        run_kernel(isa_, NormalKernel<Law>{law, contacts.overlap.data(), contacts.closing.data(),
+                                           contacts.m_eff.data(), contacts.count,
+                                           contacts.normal_force.data(), contacts.normal_loss.data()});
+      },
+      laws_.normal);
+  const std::array<Array, turns<D>>& slip = contacts.slip;
+  std::visit(
+      [&]<class Law>(const Law& law) {
+        run_kernel(isa_, ShearKernel<Law, turns<D>>{
+                             law, pointers(slip), contacts.normal_force.data(), contacts.m_eff.data(),
+                             contacts.count, pointers(contacts.shear_force), contacts.shear_loss.data()});
+      },
+      laws_.shear);
+}
+
+template <int D>
+void ContactStages<D>::apply(const Contacts<D>& contacts, const Grains<D>& grains,
+                             std::array<Array, D>& force, std::array<Array, turns<D>>& torque) const {
+  for (std::size_t c = 0; c < contacts.count; ++c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
+    Vec<D> f, n;
+    for (int k = 0; k < D; ++k) n[k] = contacts.normal[k][c];
+    f = contacts.normal_force[c] * n;
+    const double Ri = grains.radius[i], Rj = grains.radius[j];
+    if constexpr (D == 2) {
+      const double f_s = contacts.shear_force[0][c];
+      f[0] += f_s * n[1];
+      f[1] -= f_s * n[0];
+      torque[0][i] += Ri * f_s;  // both grains: the lever arms and the forces are opposite
+      torque[0][j] += Rj * f_s;
+    } else {
+      Vec<3> f_s;
+      for (int k = 0; k < 3; ++k) f_s[k] = contacts.shear_force[k][c];
+      f = f + f_s;
+      const auto turn = cross(n, f_s);
+      for (int k = 0; k < 3; ++k) torque[k][i] -= Ri * turn[k], torque[k][j] -= Rj * turn[k];
+    }
+    for (int k = 0; k < D; ++k) force[k][i] -= f[k], force[k][j] += f[k];
+  }
+}
+
+template <int D>
+double ContactStages<D>::elastic_energy(const Contacts<D>& contacts) const {
+  double sum = 0;
+  std::visit(
+      [&](const auto& law) {
+        for (std::size_t c = 0; c < contacts.count; ++c)
+          sum += law.energy(contacts.overlap[c], contacts.m_eff[c]);
+      },
+      laws_.normal);
+  return sum;
+}
+
+template struct Contacts<2>;
+template struct Contacts<3>;
+template class ContactStages<2>;
+template class ContactStages<3>;
+
+}  // namespace chute::soft

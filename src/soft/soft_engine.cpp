@@ -1,0 +1,214 @@
+#include "soft/soft_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "core/not_a_number.hpp"
+
+namespace chute::soft {
+
+template <int D>
+SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
+    : setup_(setup),
+      grains_(std::move(grains)),
+      list_(setup.domain, setup.skins, setup.search, setup.isa),
+      stages_(setup.domain, setup.laws, setup.isa),
+      integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa) {
+  for (auto& f : force_) f.resize(grains_.size());
+  for (auto& t : torque_) t.resize(grains_.size());
+  for (int k = 0; k < D; ++k)
+    start_place_[k].assign(grains_.position[k].begin(),
+                           grains_.position[k].begin() + static_cast<std::ptrdiff_t>(grains_.moving));
+  forces();
+  integrator_.start(grains_, force_, torque_);
+  account_.start = energy().stored();
+}
+
+template <int D>
+void SoftEngine<D>::advance_to(std::int64_t step) {
+  if (step <= step_) return;
+  integrator_.predict(grains_);
+  for (;;) {
+    ++step_;
+    forces();
+    account(setup_.time_step);
+    if (collecting_) find_impacts();
+    if (step_ == step) break;
+    integrator_.correct_and_predict(grains_, force_, torque_);
+  }
+  integrator_.correct(grains_, force_, torque_);
+  check_floor();
+}
+
+template <int D>
+void SoftEngine<D>::forces() {
+  for (auto& f : force_) std::fill(f.begin(), f.end(), 0.0);
+  for (auto& t : torque_) std::fill(t.begin(), t.end(), 0.0);
+  try {
+    stages_.evaluate(list_.near(grains_), grains_, contacts_);
+  } catch (const NotANumber& error) {
+    leave_physics(error.grain, "its place is not a number: the time step is too long for these forces");
+  }
+  stages_.apply(contacts_, grains_, force_, torque_);
+}
+
+template <int D>
+void SoftEngine<D>::account(double duration) {
+  double normal = 0, shear = 0, deepest = 0;
+  std::size_t where = 0;
+  for (std::size_t c = 0; c < contacts_.count; ++c) {
+    normal += contacts_.normal_loss[c];
+    shear += contacts_.shear_loss[c];
+    if (contacts_.overlap[c] > deepest) deepest = contacts_.overlap[c], where = c;
+  }
+  account_.normal_loss += duration * normal;
+  account_.shear_loss += duration * shear;
+  if (deepest == 0) return;
+  const auto i = static_cast<std::size_t>(contacts_.i[where]), j = static_cast<std::size_t>(contacts_.j[where]);
+  const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
+  if (deepest > setup_.deepest_overlap * smaller)
+    leave_physics(i, fmt::format("it overlaps grain {} by {:.3g} of the smaller radius (limit {}): stiffness is "
+                                 "too low for these velocities",
+                                 j, deepest / smaller, setup_.deepest_overlap));
+}
+
+template <int D>
+void SoftEngine<D>::find_impacts() {
+  // Both lists are ordered by (i, j): a merge finds the contacts that were not there a step ago.
+  auto old = touched_.begin();
+  for (std::size_t c = 0; c < contacts_.count; ++c) {
+    const std::pair now{contacts_.i[c], contacts_.j[c]};
+    while (old != touched_.end() && *old < now) ++old;
+    if (old == touched_.end() || *old != now) impacts_.push_back(impact(c));
+  }
+  touched_.clear();
+  for (std::size_t c = 0; c < contacts_.count; ++c) touched_.emplace_back(contacts_.i[c], contacts_.j[c]);
+}
+
+/// The contact began within the last step and no force has acted yet: the predicted velocities are those of free
+/// flight, so this is the state just before the impact.
+template <int D>
+Impact SoftEngine<D>::impact(std::size_t contact) const {
+  const auto grain = static_cast<std::size_t>(contacts_.i[contact]);
+  const auto bead = static_cast<std::size_t>(contacts_.j[contact]);
+  Vec<D> n, place;  // n from bead to grain
+  for (int k = 0; k < D; ++k) n[k] = -contacts_.normal[k][contact];
+  place = grains_.place(bead) + grains_.radius[bead] * n;
+  const auto v = grains_.speed(grain) - grains_.speed(bead);
+  const double v_n = dot(v, n);
+  Impact impact{};
+  impact.time = time();
+  impact.grain = static_cast<std::int64_t>(grain);
+  impact.bead = static_cast<std::int64_t>(bead);
+  for (int k = 0; k < D; ++k) impact.place[k] = place[k];
+  impact.v_n = v_n;
+  if constexpr (D == 2) {
+    impact.gamma = std::atan2(n[0], n[1]);
+    impact.v_t = v[0] * n[1] - v[1] * n[0];  // along s = (n_y, −n_x): downhill at the top of a bead
+  } else {
+    impact.gamma = std::acos(std::clamp(n[2], -1.0, 1.0));
+    impact.phi = std::atan2(n[1], n[0]);
+    impact.v_t = norm(v - v_n * n);
+  }
+  return impact;
+}
+
+template <int D>
+std::vector<Impact> SoftEngine<D>::take_impacts() {
+  return std::exchange(impacts_, {});
+}
+
+template <int D>
+void SoftEngine<D>::check_floor() const {
+  const auto& height = grains_.position[D - 1];
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    if (height[i] < setup_.floor) leave_physics(i, "it fell through the bed");
+}
+
+template <int D>
+void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
+  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_,
+                              grain, what));
+}
+
+template <int D>
+GrainsView SoftEngine<D>::grains() const {
+  GrainsView view;
+  view.dimensions = D;
+  view.time = time();
+  view.moving = grains_.moving;
+  for (int k = 0; k < D; ++k) {
+    view.position[k] = grains_.position[k];
+    view.velocity[k] = grains_.velocity[k];
+    view.force[k] = force_[k];
+  }
+  for (int k = 0; k < turns<D>; ++k) view.angle[k] = grains_.angle[k], view.spin[k] = grains_.spin[k];
+  view.radius = grains_.radius;
+  view.mass = grains_.mass;
+  view.inertia = grains_.inertia;
+  return view;
+}
+
+template <int D>
+EnergyAccount SoftEngine<D>::energy() const {
+  EnergyAccount e = account_;
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    for (int k = 0; k < D; ++k) {
+      const double v = grains_.velocity[k][i];
+      e.translation += 0.5 * grains_.mass[i] * v * v;
+      double way = grains_.position[k][i] - start_place_[k][i];
+      if (setup_.domain.periodic(k)) way += grains_.wraps[k][i] * setup_.domain.length[k];
+      e.gravity_work += grains_.mass[i] * setup_.gravity[k] * way;
+    }
+    for (int k = 0; k < turns<D>; ++k)
+      e.rotation += 0.5 * grains_.inertia[i] * grains_.spin[k][i] * grains_.spin[k][i];
+  }
+  e.elastic = stages_.elastic_energy(contacts_);
+  return e;
+}
+
+template <int D>
+std::vector<ContactRecord> SoftEngine<D>::contacts() const {
+  std::vector<ContactRecord> records(contacts_.count);
+  for (std::size_t c = 0; c < contacts_.count; ++c) {
+    double shear = 0;
+    for (const auto& component : contacts_.shear_force) shear += component[c] * component[c];
+    records[c] = {contacts_.i[c], contacts_.j[c], contacts_.overlap[c], contacts_.normal_force[c],
+                  turns<D> == 1 ? contacts_.shear_force[0][c] : std::sqrt(shear)};
+  }
+  return records;
+}
+
+/// Everything that changes during a run, for both directions of a checkpoint.
+template <int D>
+template <class Archive, class Self>
+void SoftEngine<D>::transfer(Archive& archive, Self& self) {
+  auto& g = self.grains_;
+  archive(g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
+          self.account_.start, self.account_.normal_loss, self.account_.shear_loss, self.step_, self.touched_);
+}
+
+template <int D>
+void SoftEngine<D>::save(std::ostream& out) const {
+  cereal::PortableBinaryOutputArchive archive(out);
+  transfer(archive, *this);
+}
+
+template <int D>
+void SoftEngine<D>::restore(std::istream& in) {
+  cereal::PortableBinaryInputArchive archive(in);
+  transfer(archive, *this);
+  forces();  // contacts and forces of this instant, for whoever looks before the next step
+}
+
+template class SoftEngine<2>;
+template class SoftEngine<3>;
+
+}  // namespace chute::soft
