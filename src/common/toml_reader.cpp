@@ -237,22 +237,38 @@ void TomlReader::finish() const {
   }
 }
 
-void TomlWriter::value(std::string_view key, const std::vector<double>& values, Range) {
-  toml::array array;
-  for (double x : values) array.push_back(x);
-  table_.insert_or_assign(key, std::move(array));
-}
+namespace {
 
-void TomlWriter::value(std::string_view key, const std::vector<std::string>& values) {
-  toml::array array;
-  for (const auto& x : values) array.push_back(x);
-  table_.insert_or_assign(key, std::move(array));
+std::string toml_text(double x) {
+  auto text = fmt::format("{}", x);
+  return text.find_first_of(".e") == text.npos ? text + ".0" : text;
 }
-
-std::string TomlWriter::text() const {
+std::string toml_text(const std::string& word) {
   std::ostringstream out;
-  out << table_ << '\n';
+  out << toml::value<std::string>(word);  // quotes and escapes
   return std::move(out).str();
+}
+template <class T>
+std::string toml_list(const std::vector<T>& values) {
+  std::vector<std::string> texts;
+  for (const auto& v : values) texts.push_back(toml_text(v));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+}  // namespace
+
+void TomlWriter::line(std::string_view key, const std::string& value) {
+  lines_ += fmt::format("{} = {}\n", key, value);
+}
+void TomlWriter::value(std::string_view key, double value, Range) { line(key, toml_text(value)); }
+void TomlWriter::value(std::string_view key, std::int64_t value, Range) { line(key, fmt::format("{}", value)); }
+void TomlWriter::value(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
+void TomlWriter::value(std::string_view key, const std::string& value) { line(key, toml_text(value)); }
+void TomlWriter::value(std::string_view key, const std::vector<double>& values, Range) {
+  line(key, toml_list(values));
+}
+void TomlWriter::value(std::string_view key, const std::vector<std::string>& values) {
+  line(key, toml_list(values));
 }
 
 }  // namespace chute

@@ -151,34 +151,35 @@ class TomlReader {
   std::string where(const toml::node* node) const;
 };
 
-/// Writes what TomlReader reads, every key with its value. Numbers are the shortest text that reads back the same.
+/// Writes what TomlReader reads, every key with its value, in the order of the description (toml++ would sort the keys
+/// and write 0.1 as 0.10000000000000001). Numbers are the shortest text that reads back the same.
 class TomlWriter {
  public:
   static constexpr bool reading = false;
 
-  template <class T>
-  void value(std::string_view key, const T& value, Range = any_number) {
-    table_.insert_or_assign(key, value);
-  }
+  void value(std::string_view key, double value, Range = any_number);
+  void value(std::string_view key, std::int64_t value, Range = any_number);
+  void value(std::string_view key, bool value);
+  void value(std::string_view key, const std::string& value);
   void value(std::string_view key, const std::vector<double>& values, Range = any_number);
   void value(std::string_view key, const std::vector<std::string>& values);
-  template <class T>
-  void value(std::string_view key, const std::optional<T>& optional, Range = any_number) {
-    if (optional) value(key, *optional);
+  template <class T, class... Rule>
+  void value(std::string_view key, const std::optional<T>& optional, Rule... rule) {
+    if (optional) value(key, *optional, rule...);
   }
   template <class T, class... Rule>
   void required(std::string_view key, const T& v, Rule... rule) {
     value(key, v, rule...);
   }
   template <class Enum>
-  void choice(std::string_view key, Enum& value, std::span<const std::string_view> words) {
-    table_.insert_or_assign(key, std::string(words[static_cast<std::size_t>(value)]));
+  void choice(std::string_view key, Enum& target, std::span<const std::string_view> words) {
+    value(key, std::string(words[static_cast<std::size_t>(target)]));
   }
   template <class T>
   void section(std::string_view key, T& target) {
-    TomlWriter inside;
+    TomlWriter inside(prefix_.empty() ? std::string(key) : prefix_ + "." + std::string(key));
     describe(inside, target);
-    table_.insert_or_assign(key, std::move(inside.table_));
+    sections_ += "\n[" + inside.prefix_ + "]\n" + inside.text();
   }
   template <class T>
   void section(std::string_view key, std::optional<T>& target) {
@@ -188,22 +189,15 @@ class TomlWriter {
   void required_section(std::string_view key, T& target) {
     section(key, target);
   }
-  template <class T>
-  void sections(std::string_view key, std::vector<T>& targets) {
-    toml::array array;
-    for (auto& target : targets) {
-      TomlWriter inside;
-      describe(inside, target);
-      array.push_back(std::move(inside.table_));
-    }
-    table_.insert_or_assign(key, std::move(array));
-  }
   void check(bool, std::string_view, const std::string&) const {}
 
-  std::string text() const;
+  TomlWriter() = default;
+  std::string text() const { return lines_ + sections_; }
 
  private:
-  toml::table table_;
+  explicit TomlWriter(std::string prefix) : prefix_(std::move(prefix)) {}
+  std::string prefix_, lines_, sections_;
+  void line(std::string_view key, const std::string& value);
 };
 
 }  // namespace chute

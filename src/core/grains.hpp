@@ -81,7 +81,15 @@ struct GrainsView {
   std::array<std::span<const double>, 3> position, velocity, force;
   std::array<std::span<const double>, 3> angle, spin;  ///< in 2D only [0], about the plane's normal
   std::span<const double> radius, mass, inertia;
+  std::array<std::span<const int>, 3> wraps;  ///< of the moving grains; with `period`, the way around the domain
+  std::array<double, 3> period{};             ///< 0 where the domain is not periodic
+
   std::size_t size() const { return radius.size(); }
+
+  /// Place of a moving grain in direction k, counted on through the periods.
+  double unwrapped(std::size_t i, std::size_t k) const {
+    return position[k][i] + static_cast<double>(wraps[k][i]) * period[k];
+  }
 };
 
 }  // namespace chute

@@ -148,6 +148,8 @@ GrainsView SoftEngine<D>::grains() const {
     view.position[k] = grains_.position[k];
     view.velocity[k] = grains_.velocity[k];
     view.force[k] = force_[k];
+    view.wraps[k] = grains_.wraps[k];
+    view.period[k] = setup_.domain.periodic(k) ? setup_.domain.length[k] : 0;
   }
   for (int k = 0; k < turns<D>; ++k) view.angle[k] = grains_.angle[k], view.spin[k] = grains_.spin[k];
   view.radius = grains_.radius;
@@ -159,13 +161,12 @@ GrainsView SoftEngine<D>::grains() const {
 template <int D>
 EnergyAccount SoftEngine<D>::energy() const {
   EnergyAccount e = account_;
+  const GrainsView view = grains();
   for (std::size_t i = 0; i < grains_.moving; ++i) {
     for (int k = 0; k < D; ++k) {
       const double v = grains_.velocity[k][i];
       e.translation += 0.5 * grains_.mass[i] * v * v;
-      double way = grains_.position[k][i] - start_place_[k][i];
-      if (setup_.domain.periodic(k)) way += grains_.wraps[k][i] * setup_.domain.length[k];
-      e.gravity_work += grains_.mass[i] * setup_.gravity[k] * way;
+      e.gravity_work += grains_.mass[i] * setup_.gravity[k] * (view.unwrapped(i, k) - start_place_[k][i]);
     }
     for (int k = 0; k < turns<D>; ++k)
       e.rotation += 0.5 * grains_.inertia[i] * grains_.spin[k][i] * grains_.spin[k][i];

@@ -1,0 +1,43 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace chute::app {
+
+std::string duration_text(double seconds) {
+  const auto s = static_cast<long>(seconds + 0.5);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
+  return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+Progress::Progress(std::string what, bool quiet)
+    : what_(std::move(what)), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (written_ && terminal_) std::fputc('\n', stderr);
+}
+
+void Progress::show(double part, const std::string& rate) {
+  const auto now = Clock::now();
+  if (begin_part_ < 0) begin_part_ = part, begin_ = now;
+  const auto pause = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(30000);
+  if (quiet_ || (part < 1 && now - shown_ < pause)) return;
+  if (part >= 1 && !terminal_ && !written_) return;  // short work needs no line in a log
+  shown_ = now;
+  written_ = true;
+  const double seconds = std::chrono::duration<double>(now - begin_).count();
+  const double gone = part - begin_part_;
+  const auto left = gone > 0 && part < 1 ? duration_text(seconds * (1 - part) / gone) + " left" : "";
+  const auto line = fmt::format("{}: {:3.0f} %  {}  {}", what_, 100 * part, rate, left);
+  if (terminal_)
+    fmt::print(stderr, "\r\x1b[K{}", line);
+  else
+    fmt::print(stderr, "{}\n", line);
+  std::fflush(stderr);
+}
+
+}  // namespace chute::app

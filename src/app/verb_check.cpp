@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include "app/progress.hpp"
+#include "app/verbs.hpp"
+#include "run/facts.hpp"
+#include "scene/start.hpp"
+
+namespace chute::app {
+namespace {
+
+void check(const std::string& file, const std::vector<std::string>& settings) {
+  const auto scene = scene::read_scene(file, settings);
+  scene::make_start(scene);  // says if the grains do not fit
+  fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, scene::to_toml(scene));
+  for (const auto& fact : run::facts(scene)) {
+    const auto value = fact.name == "cost" ? duration_text(fact.value)
+                                           : fmt::format("{:.6g} {}", fact.value, fact.unit);
+    fmt::print("# {:<16} {:<26} {}\n", fact.name, value, fact.meaning);
+  }
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+  auto* verb = app.add_subcommand("check", "Validate scenes; print each complete, with what follows from it");
+  struct Arguments {
+    std::vector<std::string> scenes, settings;
+  };
+  auto a = std::make_shared<Arguments>();
+  verb->add_option("scenes", a->scenes, "scene files (TOML)")->required();
+  verb->add_option("--set", a->settings, "change a key: --set grains.count=100")->allow_extra_args(false);
+  verb->footer("Example: chute check scenes/chute-2d.toml");
+  verb->callback([a] {
+    for (const auto& file : a->scenes) check(file, a->settings);
+  });
+}
+
+}  // namespace chute::app

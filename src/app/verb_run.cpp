@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <thread>
+
+#include "app/progress.hpp"
+#include "app/verbs.hpp"
+#include "common/error.hpp"
+#include "run/run.hpp"
+
+namespace chute::app {
+namespace {
+
+struct RunArguments {
+  std::string scene, directory;
+  std::vector<std::string> settings;
+  int threads = 1;
+  bool resume = false, force = false, quiet = false;
+};
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+void run(const RunArguments& arguments) {
+  if (arguments.resume && arguments.force) throw InputError("--resume and --force exclude each other");
+  const auto scene = scene::read_scene(arguments.scene, arguments.settings);
+  run::RunOptions options;
+  options.directory = arguments.directory.empty()
+                          ? std::filesystem::path("out") / std::filesystem::path(arguments.scene).stem()
+                          : std::filesystem::path(arguments.directory);
+  options.existing = arguments.resume  ? run::Existing::resume
+                     : arguments.force ? run::Existing::replace
+                                       : run::Existing::refuse;
+  options.threads = arguments.threads;
+  options.command_line = command_line();
+  Progress progress("run", arguments.quiet);
+  options.progress = [&](double part) {
+    progress.show(part);
+    return stop_asked == 0;
+  };
+  // An interrupted run leaves a checkpoint, so that --resume goes on from there.
+  std::signal(SIGINT, [](int) { stop_asked = 1; });
+  std::signal(SIGTERM, [](int) { stop_asked = 1; });
+  const auto result = run::run_scene(scene, options);
+  if (!result.finished)
+    throw WorkError(fmt::format("stopped; go on with: chute run {} -o {} --resume", arguments.scene,
+                                options.directory.string()));
+  if (!arguments.quiet)
+    fmt::print(stderr, "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n", result.steps,
+               duration_text(result.seconds),
+               static_cast<double>(result.steps * scene.grains.count) / result.seconds / 1e6,
+               options.directory.string());
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto* verb = app.add_subcommand("run", "Simulate a scene into a run directory");
+  auto a = std::make_shared<RunArguments>();
+  verb->add_option("scene", a->scene, "scene file (TOML)")->required();
+  verb->add_option("-o,--output", a->directory, "run directory; default out/NAME-OF-SCENE");
+  verb->add_option("--set", a->settings, "change a key of the scene: --set contact.normal.restitution=0.7")
+      ->allow_extra_args(false);
+  verb->add_option("--threads", a->threads, "threads; results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  verb->add_flag("--resume", a->resume, "go on with an interrupted run");
+  verb->add_flag("--force", a->force, "replace a run that is already there");
+  verb->add_flag("--quiet", a->quiet, "no progress line");
+  verb->footer("Example: chute run scenes/demo.toml -o out/demo --set incline.angle='\"20 deg\"'");
+  verb->callback([a] { run(*a); });
+}
+
+}  // namespace chute::app

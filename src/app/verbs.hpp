@@ -1,0 +1,17 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+/// Each verb adds itself to the command line, with its options, help and an example, and does its work in a callback.
+namespace chute::app {
+
+void add_run(CLI::App& app);
+void add_check(CLI::App& app);
+void add_info(CLI::App& app);
+void add_render(CLI::App& app);
+void add_figure(CLI::App& app);
+void add_compare(CLI::App& app);
+
+/// The command line as it was given, for run.json and figure comments.
+const std::string& command_line();
+
+}  // namespace chute::app

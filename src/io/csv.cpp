@@ -1,0 +1,35 @@
+#include "io/csv.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cassert>
+#include <cmath>
+
+namespace chute::io {
+
+Csv::Csv(std::vector<std::string> comments, std::vector<std::string_view> columns)
+    : columns_(columns.size()) {
+  for (const auto& comment : comments) text_ += "# " + comment + "\n";
+  text_ += fmt::format("{}\n", fmt::join(columns, ","));
+}
+
+void Csv::row(std::initializer_list<Cell> cells) { row({}, cells); }
+
+void Csv::row(std::initializer_list<std::string_view> texts, std::initializer_list<Cell> cells) {
+  assert(texts.size() + cells.size() == columns_);
+  const char* comma = "";
+  for (const auto text : texts) {
+    assert(text.find_first_of(",\"\n") == text.npos);
+    text_ += fmt::format("{}{}", comma, text);
+    comma = ",";
+  }
+  for (const auto& cell : cells) {
+    text_ += comma;
+    if (cell && std::isfinite(*cell)) text_ += fmt::format("{}", *cell);
+    comma = ",";
+  }
+  text_ += '\n';
+}
+
+}  // namespace chute::io

@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+
+namespace chute::io {
+
+/// Text of a CSV file: comment lines with #, a header, rows. Numbers are the shortest text that reads back the same;
+/// an unknown number is an empty cell, never 0.
+class Csv {
+ public:
+  Csv(std::vector<std::string> comments, std::vector<std::string_view> columns);
+  using Cell = std::optional<double>;
+  void row(std::initializer_list<Cell> cells);
+  /// First cells text, the others numbers; texts must not hold commas or quotes.
+  void row(std::initializer_list<std::string_view> texts, std::initializer_list<Cell> cells);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  std::size_t columns_;
+};
+
+}  // namespace chute::io

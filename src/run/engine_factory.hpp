@@ -1,0 +1,21 @@
+#pragma once
+#include <memory>
+
+#include "core/domain.hpp"
+#include "core/engine.hpp"
+#include "scene/scene.hpp"
+
+namespace chute::run {
+
+struct Made {
+  std::unique_ptr<Engine> engine;
+  Domain<2> domain;
+};
+
+/// The engine that a scene asks for, with its grains at the start. InputError if the grains do not fit.
+Made make_engine(const scene::Scene& scene);
+
+/// The time step of a scene: as given, or a part of the contact time.
+double time_step(const scene::Scene& scene);
+
+}  // namespace chute::run

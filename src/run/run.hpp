@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "run/run_directory.hpp"
+#include "scene/scene.hpp"
+
+namespace chute::run {
+
+struct RunOptions {
+  std::filesystem::path directory;
+  Existing existing = Existing::refuse;
+  int threads = 1;
+  std::string command_line;  ///< for run.json
+  /// Called now and then with the part done, 0 to 1. Returning false stops the run after a checkpoint.
+  std::function<bool(double part)> progress;
+};
+
+struct RunResult {
+  bool finished;         ///< false: stopped by `progress`; resume to go on
+  std::int64_t steps;    ///< done by this call
+  double seconds;        ///< wall time of this call
+};
+
+/// Runs a scene into a run directory, or goes on with one: the same scene, seed and build give the same bytes,
+/// interrupted or not. Leaves the folder with a checkpoint and run.json telling how it ended if the run leaves
+/// physics (WorkError).
+RunResult run_scene(const scene::Scene& scene, const RunOptions& options);
+
+/// The resolved scene of a finished run, if the directory holds one that finished; for reusing runs.
+bool is_finished_run_of(const std::filesystem::path& directory, const scene::Scene& scene);
+
+}  // namespace chute::run
