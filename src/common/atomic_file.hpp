@@ -4,16 +4,17 @@
 
 namespace chute {
 
-/// Writes `content` to `path` so that a reader sees the old file or the new one, never a part: it is written beside
-/// and renamed. On failure (no room, no permission) the old file is left as it was, nothing is left beside it, and
-/// WorkError says which file and why.
+/// Writes `content` to `path` so that a reader sees the old file or the new one, never a part: it is written
+/// beside and renamed. On failure (no room, no permission) the old file is left as it was, nothing is left
+/// beside it, and WorkError says which file and why.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// Whole file as bytes. InputError if it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Runs `write(temporary_path)`, for libraries that insist on writing files themselves, and renames the result to
-/// `path`; the temporary file, in the same folder and with the same extension, is removed if `write` throws.
+/// Runs `write(temporary_path)`, for libraries that insist on writing files themselves, and renames the
+/// result to `path`; the temporary file, in the same folder and with the same extension, is removed if
+/// `write` throws.
 template <class Write>
 void replace_atomically(const std::filesystem::path& path, Write&& write);
 

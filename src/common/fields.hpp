@@ -2,8 +2,8 @@
 #include <array>
 #include <string_view>
 
-/// Names of the arrays in chute's files, what they are and their unit as a power product of length L, time T, mass M.
-/// Writers and readers take the names from here, so that they cannot drift apart.
+/// Names of the arrays in chute's files, what they are and their unit as a power product of length L, time T,
+/// mass M. Writers and readers take the names from here, so that they cannot drift apart.
 namespace chute::fields {
 
 struct Field {
@@ -21,17 +21,19 @@ inline constexpr Field radius{"radius", "R", "m", "d", false};
 inline constexpr Field mass{"mass", "m", "kg", "m", false};
 inline constexpr Field velocity{"velocity", "v", "m/s", "\\sqrt{gd}", false};
 inline constexpr Field angular_velocity{"angular_velocity", "\\omega", "rad/s", "\\sqrt{g/d}", true};
-inline constexpr Field angle{"angle", "\\phi", "rad", "rad", false};  ///< turned since the start; draws the spin mark
+inline constexpr Field angle{"angle", "\\phi", "rad", "rad",
+                             false};  ///< turned since the start; draws the spin mark
 inline constexpr Field force{"force", "F", "N", "mg", false};
 
 // Impacts: one point each in impacts.vtp, where the surfaces met
 inline constexpr Field time{"time", "t", "s", "\\sqrt{d/g}", false};
-inline constexpr Field gamma{"gamma", "\\gamma", "rad", "rad", true};  ///< from the incline's normal, > 0 downhill side
-inline constexpr Field phi{"phi", "\\varphi", "rad", "rad", true};     ///< azimuth about the normal; 0 in 2D
-inline constexpr Field v_n{"v_n", "v_n", "m/s", "\\sqrt{gd}", true};   ///< < 0 on approach (1.13)
-inline constexpr Field v_t{"v_t", "v_t", "m/s", "\\sqrt{gd}", true};   ///< translation along the surface, v·s
-inline constexpr Field bead{"bead", "bead", "", "", false};            ///< id of the grain that was hit
-inline constexpr Field grain{"grain", "grain", "", "", false};         ///< id of the grain that hit
+inline constexpr Field gamma{"gamma", "\\gamma", "rad", "rad",
+                             true};  ///< from the incline's normal, > 0 downhill side
+inline constexpr Field phi{"phi", "\\varphi", "rad", "rad", true};    ///< azimuth about the normal; 0 in 2D
+inline constexpr Field v_n{"v_n", "v_n", "m/s", "\\sqrt{gd}", true};  ///< < 0 on approach (1.13)
+inline constexpr Field v_t{"v_t", "v_t", "m/s", "\\sqrt{gd}", true};  ///< translation along the surface, v·s
+inline constexpr Field bead{"bead", "bead", "", "", false};           ///< id of the grain that was hit
+inline constexpr Field grain{"grain", "grain", "", "", false};        ///< id of the grain that hit
 
 inline constexpr std::array grain_fields{id, type, radius, mass, velocity, angular_velocity, angle, force};
 inline constexpr std::array impact_fields{time, gamma, phi, v_n, v_t, bead, grain};
@@ -39,7 +41,7 @@ inline constexpr std::array impact_fields{time, gamma, phi, v_n, v_t, bead, grai
 // Field data of every VTK file
 inline constexpr std::string_view time_value = "TimeValue";  ///< ParaView's own name
 inline constexpr std::string_view units = "units";           ///< "SI" or "reduced"
-inline constexpr std::string_view domain = "domain";         ///< x0 x1 y0 y1 z0 z1; equal ends: not periodic there
-inline constexpr std::string_view gravity = "gravity";       ///< gx gy gz in the incline's frame
+inline constexpr std::string_view domain = "domain";    ///< x0 x1 y0 y1 z0 z1; equal ends: not periodic there
+inline constexpr std::string_view gravity = "gravity";  ///< gx gy gz in the incline's frame
 
 }  // namespace chute::fields

@@ -77,15 +77,16 @@ void set_by_path(toml::table& table, std::string_view assignment) {
   const std::string key(assignment.substr(0, equals)), value(assignment.substr(equals + 1));
   const std::string name = "--set " + key;
   toml::table parsed;
-  try {
-    parsed = toml::parse("value = " + value, name);
-  } catch (const toml::parse_error&) {
-    try {
-      parsed = toml::parse(fmt::format("value = '{}'", value), name);  // a plain word
-    } catch (const toml::parse_error& error) {
-      throw InputError(fmt::format("{}: not a TOML value: {}", name, error.description()));
+  const bool removes = value.empty();
+  if (!removes) try {
+      parsed = toml::parse("value = " + value, name);
+    } catch (const toml::parse_error&) {
+      try {
+        parsed = toml::parse(fmt::format("value = '{}'", value), name);  // a plain word
+      } catch (const toml::parse_error& error) {
+        throw InputError(fmt::format("{}: not a TOML value: {}", name, error.description()));
+      }
     }
-  }
   toml::table* inside = &table;
   std::string_view rest = key;
   for (;;) {
@@ -93,6 +94,10 @@ void set_by_path(toml::table& table, std::string_view assignment) {
     const auto part = rest.substr(0, dot);
     if (part.empty()) throw InputError(name + ": empty key");
     if (dot == std::string_view::npos) {
+      if (removes) {
+        inside->erase(part);
+        return;
+      }
       inside->insert_or_assign(part, std::move(*parsed.get("value")));
       return;
     }
@@ -203,9 +208,9 @@ int TomlReader::choose(std::string_view key, int current, std::span<const std::s
     if (words[i] == word) return static_cast<int>(i);
   const std::vector<std::string> known(words.begin(), words.end());
   const auto hint = nearest(word, known);
-  fail(key, fmt::format("\"{}\" is not known{}, allowed: {}", word,
-                        hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint),
-                        fmt::join(words, ", ")));
+  fail(key,
+       fmt::format("\"{}\" is not known{}, allowed: {}", word,
+                   hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint), fmt::join(words, ", ")));
 }
 
 TomlReader TomlReader::enter(std::string_view key) const {
@@ -261,7 +266,9 @@ void TomlWriter::line(std::string_view key, const std::string& value) {
   lines_ += fmt::format("{} = {}\n", key, value);
 }
 void TomlWriter::value(std::string_view key, double value, Range) { line(key, toml_text(value)); }
-void TomlWriter::value(std::string_view key, std::int64_t value, Range) { line(key, fmt::format("{}", value)); }
+void TomlWriter::value(std::string_view key, std::int64_t value, Range) {
+  line(key, fmt::format("{}", value));
+}
 void TomlWriter::value(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
 void TomlWriter::value(std::string_view key, const std::string& value) { line(key, toml_text(value)); }
 void TomlWriter::value(std::string_view key, const std::vector<double>& values, Range) {

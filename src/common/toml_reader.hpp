@@ -19,8 +19,8 @@
 ///       a.value("count", bed.count, at_least(1));        // keeps the default that `bed` holds
 ///     }
 ///
-/// and that one list reads it (TomlReader), writes it back complete (TomlWriter), and knows which keys exist, so that
-/// a slip of the pen is answered with the file, the line and the nearest key.
+/// and that one list reads it (TomlReader), writes it back complete (TomlWriter), and knows which keys exist,
+/// so that a slip of the pen is answered with the file, the line and the nearest key.
 namespace chute {
 
 /// Allowed interval of a number.
@@ -45,12 +45,14 @@ std::string nearest(std::string_view word, std::span<const std::string> known);
 /// Reads TOML text; InputError `NAME:LINE: …` if it is not TOML.
 toml::table parse_toml(std::string_view text, const std::string& name);
 
-/// Applies `key.path=value` (a TOML value, or else a plain word) to the table. InputError if it is not of that form.
+/// Applies `key.path=value` (a TOML value, or else a plain word) to the table; `key.path=` removes the key.
+/// InputError if it is not of that form.
 void set_by_path(toml::table& table, std::string_view assignment);
 
 class TomlReader {
  public:
-  /// `table` and `document` must outlive the reader. `prefix` is the dotted path of the table, empty for the root.
+  /// `table` and `document` must outlive the reader. `prefix` is the dotted path of the table, empty for the
+  /// root.
   TomlReader(const toml::table& table, std::string document, std::string prefix = "");
 
   static constexpr bool reading = true;
@@ -86,7 +88,7 @@ class TomlReader {
 
   /// One word out of `words`, stored as an enum whose values count from 0 in the same order.
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   void choice(std::string_view key, Enum& target, std::span<const std::string_view> words) {
     target = static_cast<Enum>(choose(key, static_cast<int>(target), words));
   }
@@ -151,8 +153,8 @@ class TomlReader {
   std::string where(const toml::node* node) const;
 };
 
-/// Writes what TomlReader reads, every key with its value, in the order of the description (toml++ would sort the keys
-/// and write 0.1 as 0.10000000000000001). Numbers are the shortest text that reads back the same.
+/// Writes what TomlReader reads, every key with its value, in the order of the description (toml++ would sort
+/// the keys and write 0.1 as 0.10000000000000001). Numbers are the shortest text that reads back the same.
 class TomlWriter {
  public:
   static constexpr bool reading = false;

@@ -56,7 +56,11 @@ class Run {
     if (out.frames) frames_due_ = Schedule(out.frames->from, out.frames->every, dt_);
     if (out.profiles) {
       profiles_due_ = Schedule(out.profiles->from, *out.profiles->every, dt_);
-      profiles_.emplace(made_.domain.length[0], out.profiles->bin, out.profiles->from, scene.duration);
+      const auto add = [&](const char* file, double bin) {
+        profiles_.push_back({file, measure::Profiles(made_.domain.length[0], bin, out.profiles->from, scene.duration)});
+      };
+      add("profiles.csv", out.profiles->bin);
+      if (out.profiles->fine) add("profiles_fine.csv", *out.profiles->fine);
     }
   }
 
@@ -89,7 +93,11 @@ class Run {
   io::RunFacts facts_;
   Schedule series_due_, frames_due_, profiles_due_, checkpoint_due_;
   std::vector<measure::SeriesRow> series_;
-  std::optional<measure::Profiles> profiles_;
+  struct ProfileFile {
+    const char* name;
+    measure::Profiles profiles;
+  };
+  std::vector<ProfileFile> profiles_;
   std::vector<Impact> impacts_;
   std::vector<double> frame_times_;
   std::int64_t steps_per_report_ = 1000;
@@ -132,7 +140,7 @@ class Run {
   template <class Archive>
   void transfer(Archive& archive) {
     archive(series_, impacts_, frame_times_);
-    if (profiles_) archive(*profiles_);
+    for (auto& file : profiles_) archive(file.profiles);
   }
 
   /// Stepping is cut where impacts begin to count, so that none is collected before.
@@ -148,7 +156,8 @@ class Run {
   void observe() {
     const auto step = engine().step();
     if (series_due_.index_at(step) >= 0) series_.push_back(measure::observe_series(engine()));
-    if (profiles_due_.index_at(step) >= 0) profiles_->sample(engine().grains());
+    if (profiles_due_.index_at(step) >= 0)
+      for (auto& file : profiles_) file.profiles.sample(engine().grains());
     if (const auto k = frames_due_.index_at(step); k >= 0) write_frame(k);
     if (collecting()) {
       engine().collect_impacts(true);
@@ -177,7 +186,7 @@ class Run {
   /// Everything on disk as of now; the checkpoint last, so that it never promises files that are not there.
   void save() {
     write_series();
-    if (profiles_) write_profiles();
+    for (const auto& file : profiles_) write_profiles(file);
     if (scene_.output.impacts) write_atomically(directory_.file("impacts.vtp"), io::impacts_vtp(impacts_, facts_));
     if (scene_.output.frames) {
       std::vector<std::string> names;
@@ -210,16 +219,16 @@ class Run {
     write_atomically(directory_.file("series.csv"), csv.text());
   }
 
-  void write_profiles() {
+  void write_profiles(const ProfileFile& file) {
     io::Csv csv(comments("time averages over layers at height h above the centres of the bed; errors from blocks "
                          "of the time window"),
                 {"h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "v_x", "v_x_err", "v_y", "v_y_err",
                  "sigma_x", "sigma_x_err", "sigma_y", "sigma_y_err", "omega", "omega_err"});
-    for (const auto& b : profiles_->result())
+    for (const auto& b : file.profiles.result())
       csv.row({b.h, b.grains, b.eta.mean, b.eta.error, b.eta_exact.mean, b.eta_exact.error, b.v_x.mean,
                b.v_x.error, b.v_y.mean, b.v_y.error, b.sigma_x.mean, b.sigma_x.error, b.sigma_y.mean,
                b.sigma_y.error, b.omega.mean, b.omega.error});
-    write_atomically(directory_.file("profiles.csv"), csv.text());
+    write_atomically(directory_.file(file.name), csv.text());
   }
 
   void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {

@@ -122,7 +122,8 @@ static void describe(Archive& a, Every& every) {
 template <class Archive>
 static void describe(Archive& a, ProfileSpec& profiles) {
   a.value("from", profiles.from, non_negative);
-  a.value("bin", profiles.bin, positive);
+  a.value("bin", profiles.bin, non_negative);
+  a.value("fine", profiles.fine, positive);
   a.value("every", profiles.every, positive);
 }
 
@@ -176,6 +177,7 @@ static void describe(Archive& a, Scene& scene) {
     if (a.has("output")) {
       a.section("output", scene.output);
       if (scene.output.profiles) {
+        if (scene.output.profiles->bin == 0) scene.output.profiles->bin = d;
         auto& every = scene.output.profiles->every;
         if (!every) every = g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4;
       }

@@ -89,7 +89,8 @@ struct Every {
 };
 struct ProfileSpec {
   double from = 0;
-  double bin = 1;                  ///< height of a bin; default one bed diameter
+  double bin = 0;                  ///< height of a bin; default one bed diameter
+  std::optional<double> fine;      ///< height of the bins of a second profile, in profiles_fine.csv
   std::optional<double> every;     ///< time between samples; default 0.02 √(d/g)
 };
 struct ImpactSpec {

@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "figures/figure_table.hpp"
+
+namespace chute::app {
+
+struct KnownFigure {
+  std::string id, title;
+  std::filesystem::path recipe;
+};
+
+/// All figure recipes that come with chute, ordered by id.
+std::vector<KnownFigure> known_figures();
+
+/// The recipe of an id, or the file of that name. InputError, with the nearest id, if there is none.
+std::filesystem::path find_recipe(const std::string& name);
+
+/// Makes DIR/ID.csv, .png, .pdf and .svg from a recipe.
+void make_figure(const std::filesystem::path& recipe, const std::filesystem::path& directory,
+                 const figures::FigureContext& context, const std::function<bool(double)>& progress);
+
+}  // namespace chute::app

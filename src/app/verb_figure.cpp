@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+#include "app/figure.hpp"
+#include "app/progress.hpp"
+#include "app/verbs.hpp"
+#include "common/error.hpp"
+
+namespace chute::app {
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+struct FigureArguments {
+  std::vector<std::string> figures;
+  std::string directory = "out/figures";
+  bool quick = false, list = false, quiet = false;
+  int jobs = 1;
+};
+
+void run(const FigureArguments& arguments) {
+  if (arguments.list) {
+    for (const auto& figure : known_figures()) fmt::print("{:<12} {}\n", figure.id, figure.title);
+    return;
+  }
+  if (arguments.figures.empty()) throw InputError("figure: name a figure, a recipe file, or all; --list shows them");
+  std::vector<std::filesystem::path> recipes;
+  for (const auto& name : arguments.figures) {
+    if (name != "all") {
+      recipes.push_back(find_recipe(name));
+      continue;
+    }
+    for (const auto& figure : known_figures()) recipes.push_back(figure.recipe);
+  }
+  std::signal(SIGINT, [](int) { stop_asked = 1; });
+  std::signal(SIGTERM, [](int) { stop_asked = 1; });
+  for (const auto& recipe : recipes) {
+    const auto id = recipe.stem().string();
+    Progress progress(id, arguments.quiet);
+    figures::FigureContext context;
+    context.quick = arguments.quick;
+    context.jobs = arguments.jobs;
+    make_figure(recipe, arguments.directory, context, [&](double part) {
+      progress.show(part);
+      return stop_asked == 0;
+    });
+    if (!arguments.quiet) fmt::print(stderr, "{}: {}/{}.png, .pdf, .svg, .csv\n", id, arguments.directory, id);
+  }
+}
+
+}  // namespace
+
+void add_figure(CLI::App& app) {
+  auto* verb = app.add_subcommand("figure", "Make figures: simulate what they need, write PNG, PDF, SVG and CSV");
+  auto a = std::make_shared<FigureArguments>();
+  verb->add_option("figures", a->figures, "ids such as fig-4-10, recipe files (TOML), or all");
+  verb->add_option("-o,--output", a->directory, "folder for the results")->capture_default_str();
+  verb->add_flag("--quick", a->quick, "a cheaper simulation: shorter, fewer points");
+  verb->add_flag("--list", a->list, "list the figures that are known");
+  verb->add_option("--jobs", a->jobs, "simulations side by side; results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  verb->add_flag("--quiet", a->quiet, "no progress line");
+  verb->footer("Example: chute figure fig-4-10 fig-5-01 --quick -o out/figures");
+  verb->callback([a] { run(*a); });
+}
+
+}  // namespace chute::app

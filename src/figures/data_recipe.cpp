@@ -1,0 +1,43 @@
+#include "figures/data_recipe.hpp"
+
+namespace chute::figures {
+namespace {
+using namespace std::string_view_literals;
+constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv, "profile"sv, "series"sv};
+}  // namespace
+
+static void describe(TomlReader& a, Curve& curve) {
+  a.value("panel", curve.panel);
+  a.required("series", curve.series);
+  a.value("set", curve.set);
+  a.choice("extract", curve.extract, extract_words);
+  a.required("column", curve.column);
+  const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
+  if (scatter) a.required("against", curve.against);
+  if (histogram) {
+    a.value("bins", curve.bins, between(2, 100000));
+    a.value("range", curve.range);
+    a.check(!curve.range || (curve.range->size() == 2 && (*curve.range)[0] < (*curve.range)[1]), "range",
+            "must be [low, high] with low < high");
+  }
+  if (histogram || scatter) a.value("fold", curve.fold, non_negative);
+  if (scatter || curve.extract == Extract::return_map) a.value("most", curve.most, at_least(1));
+  if (curve.extract == Extract::profile) a.value("fine", curve.fine);
+  a.check(curve.series.find_first_of(",\"\n") == std::string::npos, "series",
+          "must not hold commas, quotes or line breaks");
+}
+
+void describe(TomlReader& a, DataRecipe& recipe) {
+  a.required("scene", recipe.scene);
+  a.value("set", recipe.set);
+  a.value("quick", recipe.quick);
+  a.value("seeds", recipe.seeds, between(1, 10000));
+  a.value("quick_seeds", recipe.quick_seeds, between(1, 10000));
+  a.required("x", recipe.x);
+  a.required("y", recipe.y);
+  a.value("notes", recipe.notes);
+  a.sections("curve", recipe.curves);
+  a.check(!recipe.curves.empty(), "curve", "a figure needs at least one [[data.curve]]");
+}
+
+}  // namespace chute::figures

@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/toml_reader.hpp"
+
+namespace chute::figures {
+
+/// How a run's files become rows of the figure's table.
+enum class Extract {
+  histogram,   ///< of one column of the impacts; density with integral 1, x = middle of the bin
+  return_map,  ///< a column of the impacts against the same of the impact before, grain by grain
+  scatter,     ///< one column of the impacts against another, one row per impact
+  profile,     ///< a column of profiles.csv (of profiles_fine.csv with `fine`) against h
+  series       ///< a column of series.csv against time
+};
+
+/// One series of one panel: which runs, and what is taken from them.
+struct Curve {
+  std::string panel, series;
+  std::vector<std::string> set;  ///< key=value, on top of the recipe's
+  Extract extract = Extract::histogram;
+  std::string column;            ///< what is drawn (y; x of a histogram)
+  std::string against;           ///< scatter: the column for x
+  std::int64_t bins = 100;       ///< histogram
+  std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
+  double fold = 0;               ///< histogram, scatter: take angles modulo this; 0: as they are
+  std::int64_t most = 20000;     ///< return_map, scatter: no more dots than this (the last ones)
+  bool fine = false;             ///< profile: the fine bins
+};
+
+/// The data half of a figure recipe: [data] and [[data.curve]].
+struct DataRecipe {
+  std::string scene;                     ///< scene file, relative to the recipe
+  std::vector<std::string> set;          ///< key=value for every run
+  std::vector<std::string> quick;        ///< and with --quick
+  std::int64_t seeds = 1, quick_seeds = 1;  ///< runs per curve, with seeds 1, 2, …
+  std::string x, y;                      ///< what x and y are, with units: comments of the CSV
+  std::vector<std::string> notes;        ///< further comments
+  std::vector<Curve> curves;
+};
+
+void describe(TomlReader& a, DataRecipe& recipe);
+
+}  // namespace chute::figures

@@ -1,0 +1,145 @@
+#include "figures/extract.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "common/fields.hpp"
+#include "read/table.hpp"
+#include "read/vtk_points.hpp"
+
+namespace chute::figures {
+namespace fs = std::filesystem;
+namespace {
+
+/// The impacts of one run, in order of time.
+class Impacts {
+ public:
+  explicit Impacts(const fs::path& run) : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {}
+
+  const std::vector<double>& column(std::string_view name) const {
+    for (const auto& array : points_.point_arrays)
+      if (array.name == name && array.components == 1) return array.values;
+    std::vector<std::string> known;
+    for (const auto& field : fields::impact_fields) known.emplace_back(field.name);
+    const auto hint = nearest(name, known);
+    throw InputError(fmt::format("{}: impacts have no column {}{}", file_.string(), name,
+                                 hint.empty() ? "" : ", did you mean " + hint + "?"));
+  }
+
+ private:
+  fs::path file_;
+  read::VtkPoints points_;
+};
+
+double folded(double angle, double period) {
+  return period > 0 ? angle - period * std::floor(angle / period) : angle;
+}
+
+std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<double> values;
+  for (const auto& run : runs)
+    for (double v : Impacts(run).column(curve.column)) values.push_back(folded(v, curve.fold));
+  if (values.empty())
+    throw WorkError(fmt::format("series {}: no impacts were recorded, so there is no histogram", curve.series));
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double low = curve.range ? (*curve.range)[0] : *least, high = curve.range ? (*curve.range)[1] : *most;
+  const auto bins = static_cast<std::size_t>(curve.bins);
+  const double width = (high - low) / static_cast<double>(bins);
+  std::vector<double> counts(bins);
+  double inside = 0;
+  for (double v : values) {
+    if (v < low || v > high) continue;
+    counts[std::min(bins - 1, static_cast<std::size_t>((v - low) / width))] += 1;
+    inside += 1;
+  }
+  std::vector<FigureRow> rows;
+  for (std::size_t b = 0; b < bins; ++b)
+    rows.push_back({curve.panel, curve.series, low + (static_cast<double>(b) + 0.5) * width,
+                    inside > 0 ? counts[b] / (inside * width) : 0});
+  return rows;
+}
+
+/// Keeps the last `most` rows: a picture of dots needs no more, and the end of a run is its steadiest part.
+void keep_last(std::vector<FigureRow>& rows, std::int64_t most) {
+  const auto excess = static_cast<std::ptrdiff_t>(rows.size()) - most;
+  if (excess > 0) rows.erase(rows.begin(), rows.begin() + excess);
+}
+
+std::vector<FigureRow> return_map(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<FigureRow> rows;
+  for (const auto& run : runs) {
+    const Impacts impacts(run);
+    const auto &value = impacts.column(curve.column), &grain = impacts.column(fields::grain.name);
+    std::map<double, double> last;  // of each grain
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (const auto before = last.find(grain[i]); before != last.end())
+        rows.push_back({curve.panel, curve.series, before->second, value[i]});
+      last[grain[i]] = value[i];
+    }
+  }
+  keep_last(rows, curve.most);
+  return rows;
+}
+
+std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<FigureRow> rows;
+  for (const auto& run : runs) {
+    const Impacts impacts(run);
+    const auto &x = impacts.column(curve.against), &y = impacts.column(curve.column);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      rows.push_back({curve.panel, curve.series, folded(x[i], curve.fold), y[i]});
+  }
+  keep_last(rows, curve.most);
+  return rows;
+}
+
+/// A column of a table against another, averaged over runs at equal x.
+std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> runs, const std::string& file,
+                                const std::string& against) {
+  struct Values {
+    std::vector<double> y, err;
+  };
+  std::map<double, Values> at;
+  for (const auto& run : runs) {
+    const auto table = read::read_table(run / file);
+    const auto x = table.column(against), y = table.column(curve.column);
+    const auto error = curve.column + "_err";
+    const auto err = table.has(error) ? table.column(error) : std::vector<double>(x.size(), NAN);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (std::isfinite(y[i])) at[x[i]].y.push_back(y[i]), at[x[i]].err.push_back(err[i]);
+  }
+  std::vector<FigureRow> rows;
+  for (const auto& [x, values] : at) {
+    const auto n = static_cast<double>(values.y.size());
+    double mean = 0, square = 0;
+    for (double y : values.y) mean += y / n;
+    for (double y : values.y) square += (y - mean) * (y - mean);
+    std::optional<double> error;
+    if (values.y.size() > 1)
+      error = std::sqrt(square / (n - 1) / n);
+    else if (std::isfinite(values.err[0]))
+      error = values.err[0];
+    rows.push_back({curve.panel, curve.series, x, mean, {}, error});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> runs) {
+  switch (curve.extract) {
+    case Extract::histogram: return histogram(curve, runs);
+    case Extract::return_map: return return_map(curve, runs);
+    case Extract::scatter: return scatter(curve, runs);
+    case Extract::profile: return averaged(curve, runs, curve.fine ? "profiles_fine.csv" : "profiles.csv", "h");
+    case Extract::series: return averaged(curve, runs, "series.csv", "time");
+  }
+  return {};
+}
+
+}  // namespace chute::figures

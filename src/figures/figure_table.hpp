@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace chute::figures {
+
+/// One row of a figure's CSV. An error that is not known is empty, never 0.
+struct FigureRow {
+  std::string panel, series;
+  double x, y;
+  std::optional<double> x_err{}, y_err{};
+};
+
+/// The numbers of a figure: rows, and comments that say what x and y are, with units, and how they were made.
+struct FigureTable {
+  std::vector<std::string> comments;
+  std::vector<FigureRow> rows;
+};
+
+struct FigureContext {
+  bool quick = false;  ///< a cheaper computation: shorter, fewer points
+  int jobs = 1;        ///< how many may run side by side
+};
+
+}  // namespace chute::figures

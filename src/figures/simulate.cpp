@@ -1,0 +1,128 @@
+#include "figures/simulate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <zlib.h>
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "common/error.hpp"
+#include "figures/extract.hpp"
+#include "run/run.hpp"
+#include "run/version.hpp"
+
+namespace chute::figures {
+namespace fs = std::filesystem;
+namespace {
+
+/// A run that some curves need.
+struct Job {
+  scene::Scene scene;
+  fs::path directory;
+};
+
+/// The runs of a recipe, each once, and which of them each curve needs.
+struct Plan {
+  std::vector<Job> jobs;
+  std::vector<std::vector<std::size_t>> of_curve;
+};
+
+Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work, bool quick) {
+  const fs::path scene_file = recipe_file.parent_path() / recipe.scene;
+  Plan plan;
+  std::map<std::string, std::size_t> known;
+  for (const auto& curve : recipe.curves) {
+    auto& needed = plan.of_curve.emplace_back();
+    for (std::int64_t seed = 1; seed <= (quick ? recipe.quick_seeds : recipe.seeds); ++seed) {
+      auto settings = recipe.set;
+      settings.insert(settings.end(), curve.set.begin(), curve.set.end());
+      if (quick) settings.insert(settings.end(), recipe.quick.begin(), recipe.quick.end());
+      settings.push_back(fmt::format("seed={}", seed));
+      auto scene = scene::read_scene(scene_file, settings);
+      scene.output.frames.reset();  // a figure needs none
+      scene.output.contacts = false;
+      const auto text = scene::to_toml(scene);
+      const auto [at, is_new] = known.try_emplace(text, plan.jobs.size());
+      if (is_new) {
+        const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
+        plan.jobs.push_back({std::move(scene), work / fmt::format("{}-{:08x}", scene_file.stem().string(), sum)});
+      }
+      needed.push_back(at->second);
+    }
+  }
+  return plan;
+}
+
+/// Does the runs that are not there yet, up to `count` side by side. The first error stops all.
+void run_all(const std::vector<Job>& jobs, int count, const std::string& command_line,
+             const std::function<bool(double)>& progress) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stop = false;
+  std::mutex guard;
+  std::vector<double> part(jobs.size());
+  std::exception_ptr error;
+
+  const auto work = [&] {
+    for (std::size_t k; !stop && (k = next++) < jobs.size();) {
+      try {
+        if (run::is_finished_run_of(jobs[k].directory, jobs[k].scene)) continue;
+        run::RunOptions options;
+        options.directory = jobs[k].directory;
+        options.existing = run::Existing::replace;
+        options.command_line = command_line;
+        options.progress = [&](double done) {
+          const std::lock_guard lock(guard);
+          part[k] = done;
+          if (!progress(std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(part.size())))
+            stop = true;
+          return !stop;
+        };
+        if (!run::run_scene(jobs[k].scene, options).finished) throw WorkError("stopped");
+        const std::lock_guard lock(guard);
+        part[k] = 1;
+      } catch (...) {
+        const std::lock_guard lock(guard);
+        if (!error) error = std::current_exception();
+        stop = true;
+      }
+    }
+  };
+  std::vector<std::jthread> workers;
+  for (int w = 1; w < count; ++w) workers.emplace_back(work);
+  work();
+  workers.clear();  // joins
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work,
+                     const FigureContext& context, const std::string& command_line,
+                     const std::function<bool(double)>& progress) {
+  const Plan plan = plan_runs(recipe, recipe_file, work, context.quick);
+  run_all(plan.jobs, context.jobs, command_line, progress);
+  FigureTable table;
+  const auto seeds = context.quick ? recipe.quick_seeds : recipe.seeds;
+  table.comments = {fmt::format("x: {}", recipe.x), fmt::format("y: {}", recipe.y)};
+  for (const auto& note : recipe.notes) table.comments.push_back(note);
+  table.comments.push_back(
+      fmt::format("made by chute {} ({}) from scene {}{}{}; {} run{} per series, seed{} 1{}", run::version,
+                  run::commit, recipe.scene, recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " "), seeds,
+                  seeds > 1 ? "s" : "", seeds > 1 ? "s" : "", seeds > 1 ? fmt::format(" to {}", seeds) : ""));
+  if (context.quick)
+    table.comments.push_back(
+        fmt::format("quick: a cheaper simulation than the full figure's ({})", fmt::join(recipe.quick, " ")));
+  for (std::size_t c = 0; c < recipe.curves.size(); ++c) {
+    std::vector<fs::path> runs;
+    for (const auto k : plan.of_curve[c]) runs.push_back(plan.jobs[k].directory);
+    const auto rows = extract(recipe.curves[c], runs);
+    table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+  }
+  return table;
+}
+
+}  // namespace chute::figures

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "figures/data_recipe.hpp"
+#include "figures/figure_table.hpp"
+
+namespace chute::figures {
+
+/// Makes a figure's table: simulates what it needs, in run directories under `work` that are used again if they hold
+/// the finished run of the same scene by the same build, and extracts the rows. `recipe_file` anchors relative paths.
+FigureTable simulate(const DataRecipe& recipe, const std::filesystem::path& recipe_file,
+                     const std::filesystem::path& work, const FigureContext& context,
+                     const std::string& command_line, const std::function<bool(double)>& progress);
+
+}  // namespace chute::figures
