@@ -1,29 +1,90 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "read/table.hpp"
+#include "read/vtk_points.hpp"
 
 namespace chute::app {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// "min … max" of what is known.
+std::string span_text(const std::vector<double>& values) {
+  double low = INFINITY, high = -INFINITY;
+  for (double v : values)
+    if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+  return low > high ? "nothing known" : fmt::format("{:.6g} … {:.6g}", low, high);
+}
+
+void show_arrays(const char* where, const std::vector<read::PointArray>& arrays) {
+  for (const auto& array : arrays)
+    fmt::print("  {:<6} {:<18} {} component{}  {}\n", where, array.name, array.components,
+               array.components == 1 ? " " : "s", span_text(array.values));
+}
+
+void show_vtk(const fs::path& path) {
+  const auto points = read::parse_vtk(read_file(path), path);
+  fmt::print("{}: {} points, {} lines\n", path.string(), points.x.size(), points.lines.size());
+  fmt::print("  place  x {}   y {}   z {}\n", span_text(points.x), span_text(points.y), span_text(points.z));
+  show_arrays("point", points.point_arrays);
+  show_arrays("cell", points.cell_arrays);
+  show_arrays("field", points.field_arrays);
+  for (const auto& [name, text] : points.field_texts) fmt::print("  field  {:<18} {}\n", name, text);
+}
+
+void show_table(const fs::path& path) {
+  const auto table = read::read_table(path);
+  for (const auto& comment : table.comments) fmt::print("# {}\n", comment);
+  fmt::print("{}: {} rows\n", path.string(), table.rows.size());
+  for (const auto& name : table.header) {
+    const auto texts = table.text(name);
+    const bool numbers = std::all_of(texts.begin(), texts.end(), [](const std::string& t) {
+      return t.find_first_not_of("0123456789+-.eE") == t.npos;
+    });
+    fmt::print("  {:<18} {}\n", name, numbers ? span_text(table.column(name)) : "text");
+  }
+}
+
+void show_run(const fs::path& path) {
+  if (!fs::exists(path / "run.json")) throw InputError(path.string() + ": not a run directory (no run.json)");
+  fmt::print("{}", read_file(path / "run.json"));
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    const auto name = entry.path().filename().string();
+    if (!entry.is_directory()) {
+      files.push_back(fmt::format("  {:<20} {:>12} bytes", name, entry.file_size()));
+      continue;
+    }
+    const auto inside = std::distance(fs::directory_iterator(entry.path()), fs::directory_iterator{});
+    files.push_back(fmt::format("  {:<20} {:>12} files", name + "/", inside));
+  }
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files) fmt::print("{}\n", file);
+}
+
 void info(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(path.string() + ": no such file or run");
-  if (!fs::is_directory(path)) throw InputError(path.string() + ": not a run directory");
-  fmt::print("{}", read_file(path / "run.json"));
+  const auto extension = path.extension();
+  if (fs::is_directory(path)) return show_run(path);
+  if (extension == ".csv") return show_table(path);
+  if (extension == ".vtp" || extension == ".vtu" || extension == ".vtk") return show_vtk(path);
+  throw InputError(path.string() + ": neither a run directory nor a .vtp, .vtu, .vtk or .csv file");
 }
 
 }  // namespace
 
 void add_info(CLI::App& app) {
-  auto* verb = app.add_subcommand("info", "Tell what a run or a file holds");
+  auto* verb = app.add_subcommand("info", "Tell what a run, a VTK file or a table holds");
   auto path = std::make_shared<std::string>();
   verb->add_option("path", *path, "run directory, VTK file or CSV table")->required();
-  verb->footer("Example: chute info out/demo");
+  verb->footer("Example: chute info out/demo/impacts.vtp");
   verb->callback([path] { info(*path); });
 }
 

@@ -47,6 +47,12 @@ struct Grains {
   Vec<D> place(std::size_t i) const { return gather(position, i); }
   Vec<D> speed(std::size_t i) const { return gather(velocity, i); }
 
+  void reserve(std::size_t count) {
+    for (int k = 0; k < D; ++k) position[k].reserve(count), velocity[k].reserve(count), wraps[k].reserve(count);
+    for (int k = 0; k < turns<D>; ++k) angle[k].reserve(count), spin[k].reserve(count);
+    for (auto* a : {&radius, &mass, &inertia, &inverse_mass, &inverse_inertia}) a->reserve(count);
+  }
+
   /// Adds a grain at rest; all moving grains must be added before the first fixed one.
   void add(const Vec<D>& r, double grain_radius, double grain_mass, double grain_inertia, bool moves) {
     for (int k = 0; k < D; ++k) {

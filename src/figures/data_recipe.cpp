@@ -28,7 +28,12 @@ static void describe(TomlReader& a, Curve& curve) {
 }
 
 void describe(TomlReader& a, DataRecipe& recipe) {
-  a.required("scene", recipe.scene);
+  a.value("scene", recipe.scene);
+  a.value("compute", recipe.compute);
+  a.value("table", recipe.table);
+  a.check(recipe.scene.has_value() + recipe.compute.has_value() + recipe.table.has_value() == 1, "scene",
+          "give one of scene (simulate), compute (a built-in computation) or table (a CSV file)");
+  if (!recipe.scene) return;
   a.value("set", recipe.set);
   a.value("quick", recipe.quick);
   a.value("seeds", recipe.seeds, between(1, 10000));

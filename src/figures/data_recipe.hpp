@@ -34,7 +34,9 @@ struct Curve {
 
 /// The data half of a figure recipe: [data] and [[data.curve]].
 struct DataRecipe {
-  std::string scene;                     ///< scene file, relative to the recipe
+  std::optional<std::string> scene;      ///< scene file, relative to the recipe
+  std::optional<std::string> compute;    ///< instead: a computation that is no run of a scene, by name
+  std::optional<std::string> table;      ///< instead: a CSV file as figures have it, relative to the recipe
   std::vector<std::string> set;          ///< key=value for every run
   std::vector<std::string> quick;        ///< and with --quick
   std::int64_t seeds = 1, quick_seeds = 1;  ///< runs per curve, with seeds 1, 2, …

@@ -32,7 +32,7 @@ struct Plan {
 };
 
 Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work, bool quick) {
-  const fs::path scene_file = recipe_file.parent_path() / recipe.scene;
+  const fs::path scene_file = recipe_file.parent_path() / *recipe.scene;
   Plan plan;
   std::map<std::string, std::size_t> known;
   for (const auto& curve : recipe.curves) {
@@ -111,7 +111,7 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
   for (const auto& note : recipe.notes) table.comments.push_back(note);
   table.comments.push_back(
       fmt::format("made by chute {} ({}) from scene {}{}{}; {} run{} per series, seed{} 1{}", run::version,
-                  run::commit, recipe.scene, recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " "), seeds,
+                  run::commit, *recipe.scene, recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " "), seeds,
                   seeds > 1 ? "s" : "", seeds > 1 ? "s" : "", seeds > 1 ? fmt::format(" to {}", seeds) : ""));
   if (context.quick)
     table.comments.push_back(

@@ -1,12 +1,15 @@
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 
 namespace chute::io {
 
-/// A checkpoint is a header (magic word, length, CRC-32 of everything that follows, the scene it belongs to) and the
-/// state of engine and observers.
-void write_checkpoint(const std::filesystem::path& path, const std::string& scene, const std::string& state);
+/// A checkpoint: a magic word, the scene it belongs to, the state of engine and observers, and at the end a CRC-32 of
+/// all that. `save` writes the state straight into the file, so that large runs need no second copy in memory.
+void write_checkpoint(const std::filesystem::path& path, const std::string& scene,
+                      const std::function<void(std::ostream&)>& save);
 
 /// The state. InputError if the file is missing, truncated, damaged, or belongs to another scene.
 std::string read_checkpoint(const std::filesystem::path& path, const std::string& scene);

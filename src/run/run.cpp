@@ -194,13 +194,11 @@ class Run {
         names.push_back(frame_name("frames", static_cast<std::int64_t>(k)));
       write_atomically(directory_.file("frames.pvd"), io::pvd(frame_times_, names));
     }
-    std::ostringstream state;
-    engine().save(state);
-    {
-      cereal::PortableBinaryOutputArchive archive(state);
+    io::write_checkpoint(directory_.file("checkpoint"), resolved_, [&](std::ostream& out) {
+      engine().save(out);
+      cereal::PortableBinaryOutputArchive archive(out);
       transfer(archive);
-    }
-    io::write_checkpoint(directory_.file("checkpoint"), resolved_, state.str());
+    });
   }
 
   std::vector<std::string> comments(std::string what) const {

@@ -74,6 +74,7 @@ Start2D make_start(const Scene& scene) {
     if (std::abs(z) <= 3) radii.push_back((d + std * z) / 2);
   }
 
+  made.grains.reserve(radii.size() + bed.size());
   const Start& start = scene.grains.start;
   if (start.lattice == Start::Lattice::square) {
     start_lattice(scene, radii, length, made.grains);

@@ -83,6 +83,7 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
   };
 
   pairs.clear();
+  pairs.reserve(grains.moving * (D == 2 ? 4 : 10));  // about what a dense flow has
   int neighbours = 1;
   for (int k = 0; k < D; ++k) neighbours *= 3;
   for (std::size_t i = 0; i < grains.moving; ++i) {

@@ -76,6 +76,7 @@ void NeighbourList<D>::build_far(const Grains<D>& grains) {
 template <int D>
 void NeighbourList<D>::build_near(const Grains<D>& grains) {
   near_.clear();
+  near_.reserve(far_.size() / 2);
   for (std::size_t p = 0; p < far_.size(); ++p) {
     const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
     const auto way = domain_.way(grains.place(i), grains.place(j));

@@ -20,6 +20,11 @@ struct PairList {
     j.clear();
     reach_squared.clear();
   }
+  void reserve(std::size_t count) {
+    i.reserve(count);
+    j.reserve(count);
+    reach_squared.reserve(count);
+  }
   void add(std::int32_t first, std::int32_t second, double reach) {
     i.push_back(first);
     j.push_back(second);

@@ -1,0 +1,100 @@
+#include "app/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "app/verbs.hpp"
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "common/toml_reader.hpp"
+#include "figures/simulate.hpp"
+#include "io/csv.hpp"
+#include "run/version.hpp"
+
+namespace chute::app {
+namespace fs = std::filesystem;
+namespace {
+
+/// Where the recipes that come with chute are: CHUTE_SCENES, or the source tree that it was built from.
+fs::path scenes_folder() {
+  const char* given = std::getenv("CHUTE_SCENES");
+  return given ? fs::path(given) : fs::path(CHUTE_SCENES_FOLDER);
+}
+
+/// A recipe file: [data] says where the numbers come from, [plot] how they look.
+struct Recipe {
+  std::string title;
+  figures::DataRecipe data;
+};
+
+}  // namespace
+
+static void describe(TomlReader& a, Recipe& recipe) {
+  a.required("title", recipe.title);
+  a.required_section("data", recipe.data);
+}
+
+namespace {
+
+Recipe read_recipe(const fs::path& file) {
+  const auto table = parse_toml(read_file(file), file.string());
+  TomlReader reader(table, file.string());
+  Recipe recipe;
+  describe(reader, recipe);
+  reader.finish();
+  return recipe;
+}
+
+figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, const fs::path& directory,
+                                const figures::FigureContext& context,
+                                const std::function<bool(double)>& progress) {
+  return figures::simulate(recipe.data, file, directory / "runs", context, command_line(), progress);
+}
+
+std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {
+  std::vector<std::string> comments{recipe.title};
+  comments.insert(comments.end(), table.comments.begin(), table.comments.end());
+  io::Csv csv(comments, {"panel", "series", "x", "y", "x_err", "y_err"});
+  for (const auto& row : table.rows) csv.row({row.panel, row.series}, {row.x, row.y, row.x_err, row.y_err});
+  return csv.text();
+}
+
+}  // namespace
+
+std::vector<KnownFigure> known_figures() {
+  std::vector<KnownFigure> known;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(scenes_folder(), error)) {
+    const auto id = entry.path().stem().string();
+    if (entry.path().extension() != ".toml" || !(id.starts_with("fig-") || id.starts_with("table-"))) continue;
+    known.push_back({id, read_recipe(entry.path()).title, entry.path()});
+  }
+  if (error) throw InputError(scenes_folder().string() + ": cannot read the folder of recipes: " + error.message());
+  std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return known;
+}
+
+fs::path find_recipe(const std::string& name) {
+  if (name.ends_with(".toml")) return name;  // read_recipe says if it cannot be read
+  std::vector<std::string> ids;
+  for (const auto& figure : known_figures()) {
+    if (figure.id == name) return figure.recipe;
+    ids.push_back(figure.id);
+  }
+  const auto hint = nearest(name, ids);
+  throw InputError(fmt::format("figure {}: not known{}; chute figure --list shows all", name,
+                               hint.empty() ? "" : ", did you mean " + hint + "?"));
+}
+
+void make_figure(const fs::path& file, const fs::path& directory, const figures::FigureContext& context,
+                 const std::function<bool(double)>& progress) {
+  const Recipe recipe = read_recipe(file);
+  const auto table = make_table(recipe, file, directory, context, progress);
+  fs::create_directories(directory);
+  const auto csv = directory / (file.stem().string() + ".csv");
+  write_atomically(csv, csv_text(recipe, table));
+}
+
+}  // namespace chute::app
