@@ -11,6 +11,10 @@
 #include "common/toml_reader.hpp"
 #include "figures/simulate.hpp"
 #include "io/csv.hpp"
+#include "plot/draw.hpp"
+#include "plot/layout.hpp"
+#include "plot/recipe.hpp"
+#include "read/table.hpp"
 #include "run/version.hpp"
 
 namespace chute::app {
@@ -27,6 +31,7 @@ fs::path scenes_folder() {
 struct Recipe {
   std::string title;
   figures::DataRecipe data;
+  plot::PlotRecipe plot;
 };
 
 }  // namespace
@@ -34,6 +39,7 @@ struct Recipe {
 static void describe(TomlReader& a, Recipe& recipe) {
   a.required("title", recipe.title);
   a.required_section("data", recipe.data);
+  a.section("plot", recipe.plot);
 }
 
 namespace {
@@ -42,6 +48,7 @@ Recipe read_recipe(const fs::path& file) {
   const auto table = parse_toml(read_file(file), file.string());
   TomlReader reader(table, file.string());
   Recipe recipe;
+  recipe.plot.source = file.string();
   describe(reader, recipe);
   reader.finish();
   return recipe;
@@ -93,8 +100,18 @@ void make_figure(const fs::path& file, const fs::path& directory, const figures:
   const Recipe recipe = read_recipe(file);
   const auto table = make_table(recipe, file, directory, context, progress);
   fs::create_directories(directory);
-  const auto csv = directory / (file.stem().string() + ".csv");
-  write_atomically(csv, csv_text(recipe, table));
+  const auto beside = [&](const char* extension) { return directory / (file.stem().string() + extension); };
+  write_atomically(beside(".csv"), csv_text(recipe, table));
+
+  // The picture is drawn from the CSV, as any reader of it would see the numbers.
+  const auto figure = plot::figure_from(recipe.plot, read::read_table(beside(".csv")));
+  const auto list = plot::lay_out(figure).list;
+  const plot::Metadata metadata{{"Title", recipe.title},
+                                {"Creator", fmt::format("chute {} ({})", run::version, run::commit)},
+                                {"Subject", fmt::format("{}{}", file.filename().string(), context.quick ? ", quick" : "")}};
+  plot::draw_png(list, beside(".png"), plot::default_dpi, metadata);
+  plot::draw_pdf(list, beside(".pdf"), metadata);
+  plot::draw_svg(list, beside(".svg"), metadata);
 }
 
 }  // namespace chute::app

@@ -20,7 +20,7 @@ static void describe(TomlReader& a, Curve& curve) {
     a.check(!curve.range || (curve.range->size() == 2 && (*curve.range)[0] < (*curve.range)[1]), "range",
             "must be [low, high] with low < high");
   }
-  if (histogram || scatter) a.value("fold", curve.fold, non_negative);
+  if (histogram || scatter) a.value("fold", curve.fold, non_negative), a.value("absolute", curve.absolute);
   if (scatter || curve.extract == Extract::return_map) a.value("most", curve.most, at_least(1));
   if (curve.extract == Extract::profile) a.value("fine", curve.fine);
   a.check(curve.series.find_first_of(",\"\n") == std::string::npos, "series",

@@ -28,6 +28,7 @@ struct Curve {
   std::int64_t bins = 100;       ///< histogram
   std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
   double fold = 0;               ///< histogram, scatter: take angles modulo this; 0: as they are
+  bool absolute = false;         ///< histogram, scatter: the column's absolute value
   std::int64_t most = 20000;     ///< return_map, scatter: no more dots than this (the last ones)
   bool fine = false;             ///< profile: the fine bins
 };

@@ -42,8 +42,10 @@ double folded(double angle, double period) {
 
 std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> runs) {
   std::vector<double> values;
-  for (const auto& run : runs)
-    for (double v : Impacts(run).column(curve.column)) values.push_back(folded(v, curve.fold));
+  for (const auto& run : runs) {
+    const Impacts impacts(run);
+    for (double v : impacts.column(curve.column)) values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));
+  }
   if (values.empty())
     throw WorkError(fmt::format("series {}: no impacts were recorded, so there is no histogram", curve.series));
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -92,7 +94,7 @@ std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> run
     const Impacts impacts(run);
     const auto &x = impacts.column(curve.against), &y = impacts.column(curve.column);
     for (std::size_t i = 0; i < x.size(); ++i)
-      rows.push_back({curve.panel, curve.series, folded(x[i], curve.fold), y[i]});
+      rows.push_back({curve.panel, curve.series, folded(x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
   }
   keep_last(rows, curve.most);
   return rows;

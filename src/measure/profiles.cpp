@@ -14,15 +14,14 @@ double area_below(double y, double R) {
   return R * R * (std::asin(y / R) + std::numbers::pi / 2) + y * std::sqrt(R * R - y * y);
 }
 
-/// Mean over blocks and its standard error; no error from a single block.
-Estimate over_blocks(const std::vector<double>& values) {
-  if (values.empty()) return {0, {}};
+/// Standard error of a mean from the scatter of its values over blocks; none from a single block.
+std::optional<double> block_error(const std::vector<double>& values) {
+  if (values.size() < 2) return {};
   const auto n = static_cast<double>(values.size());
   double mean = 0, square = 0;
   for (double v : values) mean += v / n;
   for (double v : values) square += (v - mean) * (v - mean);
-  if (values.size() < 2) return {mean, {}};
-  return {mean, std::sqrt(square / (n - 1) / n)};
+  return std::sqrt(square / (n - 1) / n);
 }
 
 }  // namespace
@@ -59,33 +58,52 @@ void Profiles::sample(const GrainsView& grains) {
   }
 }
 
+/// What the sums of some samples say about a bin of the given area.
+struct Profiles::Means {
+  double eta, exact, v_x, v_y, sigma_x, sigma_y, omega;
+
+  Means(const Sums& s, double samples, double bin_area)
+      : eta(s.area / (samples * bin_area)),
+        exact(s.exact / (samples * bin_area)),
+        v_x(s.v_x / s.count),
+        v_y(s.v_y / s.count),
+        sigma_x(std::sqrt(std::max(0.0, s.v_x2 / s.count - v_x * v_x))),
+        sigma_y(std::sqrt(std::max(0.0, s.v_y2 / s.count - v_y * v_y))),
+        omega(s.omega / s.count) {}
+};
+
 std::vector<ProfileBin> Profiles::result() const {
   std::size_t highest = 0;
   for (const auto& bins : sums_) highest = std::max(highest, bins.size());
   std::vector<ProfileBin> profile;
   for (std::size_t b = 0; b < highest; ++b) {
-    std::vector<double> eta, exact, v_x, v_y, sigma_x, sigma_y, omega;
-    double count = 0, samples = 0;
+    Sums total;
+    double samples = 0;
+    std::vector<Means> blocks_means;
     for (std::size_t block = 0; block < blocks; ++block) {
       if (samples_[block] == 0) continue;
-      const auto n = static_cast<double>(samples_[block]);
       const Sums s = b < sums_[block].size() ? sums_[block][b] : Sums{};
-      count += s.count;
-      samples += n;
-      eta.push_back(s.area / (n * length_ * bin_));
-      exact.push_back(s.exact / (n * length_ * bin_));
-      if (s.count == 0) continue;
-      const double mean_x = s.v_x / s.count, mean_y = s.v_y / s.count;
-      v_x.push_back(mean_x);
-      v_y.push_back(mean_y);
-      sigma_x.push_back(std::sqrt(std::max(0.0, s.v_x2 / s.count - mean_x * mean_x)));
-      sigma_y.push_back(std::sqrt(std::max(0.0, s.v_y2 / s.count - mean_y * mean_y)));
-      omega.push_back(s.omega / s.count);
+      total += s;
+      samples += static_cast<double>(samples_[block]);
+      blocks_means.emplace_back(s, static_cast<double>(samples_[block]), length_ * bin_);
     }
-    if (samples == 0) return {};
-    profile.push_back({(static_cast<double>(b) + 0.5) * bin_, count / samples, over_blocks(eta),
-                       over_blocks(exact), over_blocks(v_x), over_blocks(v_y), over_blocks(sigma_x),
-                       over_blocks(sigma_y), over_blocks(omega)});
+    // The mean is that of the whole window, so that σ counts slow changes of the flow too; blocks only give the error.
+    const Means mean(total, samples, length_ * bin_);
+    const auto estimate = [&](double Means::*member) {
+      std::vector<double> values;
+      for (const auto& m : blocks_means)
+        if (std::isfinite(m.*member)) values.push_back(m.*member);
+      return Estimate{mean.*member, block_error(values)};
+    };
+    profile.push_back({(static_cast<double>(b) + 0.5) * bin_, total.count / samples, estimate(&Means::eta),
+                       estimate(&Means::exact), estimate(&Means::v_x), estimate(&Means::v_y),
+                       estimate(&Means::sigma_x), estimate(&Means::sigma_y), estimate(&Means::omega), {NAN, {}}});
+  }
+  for (std::size_t b = 1; b + 1 < profile.size(); ++b) {
+    const auto &below = profile[b - 1].v_x, &above = profile[b + 1].v_x;
+    Estimate& shear = profile[b].half_shear;
+    shear.mean = (above.mean - below.mean) / (4 * bin_);
+    if (above.error && below.error) shear.error = std::hypot(*above.error, *below.error) / (4 * bin_);
   }
   return profile;
 }

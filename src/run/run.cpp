@@ -135,6 +135,7 @@ class Run {
     write_run_json("running");
     engine().collect_impacts(collecting());
     observe();
+    save();  // a run that leaves physics right away leaves a checkpoint too
   }
 
   template <class Archive>
@@ -221,11 +222,12 @@ class Run {
     io::Csv csv(comments("time averages over layers at height h above the centres of the bed; errors from blocks "
                          "of the time window"),
                 {"h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "v_x", "v_x_err", "v_y", "v_y_err",
-                 "sigma_x", "sigma_x_err", "sigma_y", "sigma_y_err", "omega", "omega_err"});
+                 "sigma_x", "sigma_x_err", "sigma_y", "sigma_y_err", "omega", "omega_err", "half_shear", "half_shear_err"});
     for (const auto& b : file.profiles.result())
       csv.row({b.h, b.grains, b.eta.mean, b.eta.error, b.eta_exact.mean, b.eta_exact.error, b.v_x.mean,
                b.v_x.error, b.v_y.mean, b.v_y.error, b.sigma_x.mean, b.sigma_x.error, b.sigma_y.mean,
-               b.sigma_y.error, b.omega.mean, b.omega.error});
+               b.sigma_y.error, b.omega.mean, b.omega.error, b.half_shear.mean,
+               b.half_shear.error});
     write_atomically(directory_.file(file.name), csv.text());
   }
 

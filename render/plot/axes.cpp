@@ -1,0 +1,148 @@
+#include "plot/axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/error.hpp"
+
+namespace chute::plot {
+
+void Margins::widen(const Margins& m) {
+  left = std::max(left, m.left), right = std::max(right, m.right);
+  top = std::max(top, m.top), bottom = std::max(bottom, m.bottom);
+}
+
+TextBox set_to_fit(const std::string& text, double size, double room) {
+  if (text.empty()) return {};
+  for (;; size -= 0.5) {
+    auto box = set_text(text, std::max(size, smallest_type));
+    if (box.width <= room) return box;
+    if (size <= smallest_type)
+      throw InputError(
+          fmt::format("label \"{}\" is {:.0f} points long, its panel has room for {:.0f}: shorten it or make "
+                      "the figure larger",
+                      text, box.width, room));
+  }
+}
+
+Axes::Axes(const Plot& plot, const Span& x, const Span& y, const TextSizes& sizes, bool show_x, bool show_y)
+    : plot_(plot), x_(x), y_(y), sizes_(sizes), show_x_(show_x), show_y_(show_y) {}
+
+Margins Axes::fit(double width, double height) {
+  x_ticks_ = ticks_for(x_, width, sizes_.tick, true);
+  y_ticks_ = ticks_for(y_, height, sizes_.tick, false);
+  x_texts_.clear(), y_texts_.clear();
+  tick_ascent_ = tick_descent_ = 0;
+  Margins m;
+  const double gap = sizes_.gap;
+  if (show_x_) {
+    for (const auto& tick : x_ticks_.major) {
+      const auto& text = x_texts_.emplace_back(set_text(tick.label, sizes_.tick));
+      tick_ascent_ = std::max(tick_ascent_, text.ascent),
+      tick_descent_ = std::max(tick_descent_, text.descent);
+      const double at = x_.fraction(tick.value) * width;
+      m.left = std::max(m.left, text.width / 2 - at),
+      m.right = std::max(m.right, at + text.width / 2 - width);
+    }
+    x_label_ = set_to_fit(plot_.x.label, sizes_.label, width + m.right);
+    x_factor_ = x_ticks_.factor.empty() ? TextBox{} : set_text(x_ticks_.factor, sizes_.tick);
+    m.bottom = gap + row();
+    // the factor of the tick labels stands at the axis' end, on its label's line if there is room
+    x_factor_below_ =
+        !x_factor_.empty() && !x_label_.empty() && (width - x_label_.width) / 2 < x_factor_.width + 2 * gap;
+    x_line_ = x_label_;
+    if (!x_factor_.empty() && !x_factor_below_) {
+      x_line_.ascent = std::max(x_line_.ascent, x_factor_.ascent);
+      x_line_.descent = std::max(x_line_.descent, x_factor_.descent);
+    }
+    if (x_line_.ascent + x_line_.descent > 0) m.bottom += gap + x_line_.ascent + x_line_.descent;
+    if (x_factor_below_) m.bottom += gap + x_factor_.ascent + x_factor_.descent;
+  }
+  if (show_y_) {
+    double widest = 0;
+    for (const auto& tick : y_ticks_.major) {
+      const auto& text = y_texts_.emplace_back(set_text(tick.label, sizes_.tick));
+      widest = std::max(widest, text.width);
+      const double at = y_.fraction(tick.value) * height, half = (text.ascent + text.descent) / 2;
+      m.top = std::max(m.top, at + half - height), m.bottom = std::max(m.bottom, half - at);
+    }
+    y_label_ = set_to_fit(plot_.y.label, sizes_.label, height);
+    y_factor_ = y_ticks_.factor.empty() ? TextBox{} : set_text(y_ticks_.factor, sizes_.tick);
+    m.left = std::max(m.left, gap + widest);
+    if (!y_label_.empty())
+      m.left = std::max(m.left, gap + widest + 1.3 * gap + y_label_.ascent + y_label_.descent);
+    if (!y_factor_.empty()) m.top = std::max(m.top, gap + y_factor_.ascent + y_factor_.descent);
+  }
+  return m;
+}
+
+void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Margins& common, int panel,
+                std::vector<Box>& boxes) const {
+  const double gap = sizes_.gap;
+  Path ticks;
+  const auto x_tick = [&](double value, double length) {
+    const double x = frame.left + x_.fraction(value) * frame.width();
+    if (x < frame.left - 0.01 || x > frame.right + 0.01) return;
+    ticks.move({x, frame.bottom}).line({x, frame.bottom - length});
+    ticks.move({x, frame.top}).line({x, frame.top + length});
+  };
+  const auto y_tick = [&](double value, double length) {
+    const double y = frame.bottom - y_.fraction(value) * frame.height();
+    if (y < frame.top - 0.01 || y > frame.bottom + 0.01) return;
+    ticks.move({frame.left, y}).line({frame.left + length, y});
+    ticks.move({frame.right, y}).line({frame.right - length, y});
+  };
+  const double shrink = std::min(1.0, sizes_.tick / look.tick_size);
+  for (const auto& t : x_ticks_.major) x_tick(t.value, shrink * look.major_tick);
+  for (double v : x_ticks_.minor) x_tick(v, shrink * look.minor_tick);
+  for (const auto& t : y_ticks_.major) y_tick(t.value, shrink * look.major_tick);
+  for (double v : y_ticks_.minor) y_tick(v, shrink * look.minor_tick);
+  list.stroke(ticks, {look.hairline, {}, Cap::butt, Join::miter}, look.ink);
+  Path outline;
+  list.stroke(outline.rectangle(frame), {look.hairline, {}, Cap::butt, Join::miter}, look.ink);
+  boxes.push_back({Box::Kind::frame, frame, panel, ""});
+
+  const auto put = [&](Box::Kind kind, const TextBox& text, Point at, int turns, const std::string& source) {
+    draw_text(list, text, at, look.ink, turns * std::numbers::pi / 2);
+    boxes.push_back({kind, text.box_at(at, turns), panel, source});
+  };
+  if (show_x_) {
+    double y = frame.bottom + gap + tick_ascent_;
+    for (std::size_t i = 0; i < x_texts_.size(); ++i) {
+      const double x =
+          frame.left + x_.fraction(x_ticks_.major[i].value) * frame.width() - x_texts_[i].width / 2;
+      put(Box::Kind::tick_label, x_texts_[i], {x, y}, 0, x_ticks_.major[i].label);
+    }
+    y += tick_descent_ + gap;
+    if (!x_label_.empty()) {
+      const double right_edge = frame.right + common.right;
+      const double x = std::min(frame.centre().x - x_label_.width / 2, right_edge - x_label_.width);
+      put(Box::Kind::axis_label, x_label_, {x, y + x_line_.ascent}, 0, plot_.x.label);
+    }
+    if (!x_factor_.empty()) {
+      const double baseline =
+          x_factor_below_ ? x_line_.ascent + x_line_.descent + gap + x_factor_.ascent : x_line_.ascent;
+      put(Box::Kind::factor, x_factor_, {frame.right - x_factor_.width, y + baseline}, 0, x_ticks_.factor);
+    }
+  }
+  if (show_y_) {
+    for (std::size_t i = 0; i < y_texts_.size(); ++i) {
+      const auto& text = y_texts_[i];
+      const double y = frame.bottom - y_.fraction(y_ticks_.major[i].value) * frame.height();
+      put(Box::Kind::tick_label, text, {frame.left - gap - text.width, y + (text.ascent - text.descent) / 2},
+          0, y_ticks_.major[i].label);
+    }
+    if (!y_label_.empty())
+      put(Box::Kind::axis_label, y_label_,
+          {frame.left - common.left + y_label_.ascent, frame.centre().y + y_label_.width / 2}, 1,
+          plot_.y.label);
+    if (!y_factor_.empty())
+      put(Box::Kind::factor, y_factor_, {frame.left, frame.top - gap - y_factor_.descent}, 0,
+          y_ticks_.factor);
+  }
+}
+
+}  // namespace chute::plot

@@ -1,0 +1,58 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "plot/layout.hpp"
+#include "plot/marks.hpp"
+
+/// The frame of a plot with its ticks and texts: first how much room they need, then where they stand.
+namespace chute::plot {
+
+/// Sizes in points that a plot's texts are set at; an inset's are smaller.
+struct TextSizes {
+  double tick, label, gap;  ///< gap: between the frame, tick labels and axis label
+};
+
+struct Margins {
+  double left = 0, right = 0, top = 0, bottom = 0;
+  void widen(const Margins& m);
+};
+
+/// Text of at most `room` points: set at `size`, or smaller down to the smallest type. InputError if that is
+/// not enough.
+TextBox set_to_fit(const std::string& text, double size, double room);
+
+/// A plot prepared for a frame of a certain size.
+class Axes {
+ public:
+  /// `show_x`, `show_y`: whether tick labels and axis label are drawn there. InputError if a label is longer
+  /// than the frame allows even at the smallest type.
+  Axes(const Plot& plot, const Span& x, const Span& y, const TextSizes& sizes, bool show_x, bool show_y);
+
+  /// Chooses ticks for a frame of this size and says what room they and the labels need around it.
+  Margins fit(double width, double height);
+
+  /// Draws ticks, frame and texts. The axis label of y is set `left` points from the frame, so that those of
+  /// one column stand in line; the one of x likewise `bottom`.
+  void draw(DisplayList& list, const Look& look, const Rect& frame, const Margins& common, int panel,
+            std::vector<Box>& boxes) const;
+
+  const Span& x() const { return x_; }
+  const Span& y() const { return y_; }
+
+ private:
+  const Plot& plot_;
+  Span x_, y_;
+  TextSizes sizes_;
+  bool show_x_, show_y_;
+  Ticks x_ticks_, y_ticks_;
+  TextBox x_label_, y_label_, x_factor_, y_factor_;
+  TextBox x_line_;  ///< height of the line that the axis label, and the factor if it is beside it, stand on
+  std::vector<TextBox> x_texts_, y_texts_;
+  double tick_ascent_ = 0, tick_descent_ = 0;  ///< of the x tick labels: one baseline
+  bool x_factor_below_ = false;                ///< in a row of its own, beneath the axis label
+
+  double row() const { return tick_ascent_ + tick_descent_; }
+};
+
+}  // namespace chute::plot

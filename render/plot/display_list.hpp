@@ -1,0 +1,86 @@
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "plot/geometry.hpp"
+
+/// What a finished layout is: things to draw, in order, in points. Every back end draws this list and decides
+/// nothing.
+namespace chute::plot {
+
+enum class Cap { butt, round, square };
+enum class Join { miter, round, bevel };
+
+/// How a path is drawn with a pen. Lengths in points.
+struct Stroke {
+  double width = 0.5;
+  std::vector<double> dash;  ///< on, off, on, off …; empty: solid
+  Cap cap = Cap::butt;
+  Join join = Join::miter;
+  double miter_limit = 4;
+};
+
+struct FillItem {
+  Path path;  ///< non-zero winding; open contours are closed
+  Color color;
+};
+
+struct StrokeItem {
+  Path path;
+  Stroke stroke;
+  Color color;
+};
+
+/// The typefaces that text is set in: one family, four faces.
+enum class Face : std::uint8_t { regular, italic, bold, bold_italic };
+
+struct Glyph {
+  std::uint32_t id = 0;  ///< in the face
+  Point at;              ///< of its origin on the baseline, before the run is turned
+  int bytes = 0;         ///< of the run's text that it stands for
+};
+
+/// Glyphs of one face and size, on baselines of their own. Turned by `angle` (radians, counter-clockwise on
+/// the page) about `origin`; glyph positions are relative to `origin`.
+struct GlyphRun {
+  Face face = Face::regular;
+  double size = 9;
+  Point origin;
+  double angle = 0;
+  std::vector<Glyph> glyphs;
+  std::string text;  ///< UTF-8: what a reader copies out of the PDF
+  Color color;
+};
+
+/// The same small convex shape at many places: a scatter plot. Back ends with curves in their files may draw
+/// it as pixels when it is long.
+struct DotsItem {
+  Path shape;  ///< about the origin, convex
+  std::vector<Point> at;
+  Color color;
+};
+
+/// Until the matching ClipEnd nothing outside is drawn. Not nested.
+struct ClipBegin {
+  Rect rect;
+};
+struct ClipEnd {};
+
+using Item = std::variant<FillItem, StrokeItem, GlyphRun, DotsItem, ClipBegin, ClipEnd>;
+
+struct DisplayList {
+  double width = 0, height = 0;  ///< of the page, points
+  Color background = Color::hex(0xffffff);
+  std::vector<Item> items;
+
+  void fill(Path path, Color color) { items.emplace_back(FillItem{std::move(path), color}); }
+  void stroke(Path path, Stroke s, Color color) {
+    items.emplace_back(StrokeItem{std::move(path), std::move(s), color});
+  }
+};
+
+/// Scatter plots with more dots than this become pixels inside PDF and SVG.
+inline constexpr std::size_t dots_kept_as_curves = 5000;
+
+}  // namespace chute::plot

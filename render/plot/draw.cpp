@@ -1,0 +1,155 @@
+#include "plot/draw.hpp"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "image/png.hpp"
+#include "plot/cairo_canvas.hpp"
+
+namespace chute::plot {
+namespace {
+
+cairo_status_t collect(void* bytes, const unsigned char* data, unsigned length) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+/// Draws on a vector surface; returns the file's bytes.
+std::string vector_file(const DisplayList& list,
+                        cairo_surface_t* (*create)(cairo_write_func_t, void*, double, double),
+                        const std::function<void(cairo_surface_t*)>& prepare) {
+  std::string bytes;
+  cairo_surface_t* surface = create(collect, &bytes, list.width, list.height);
+  cairo_surface_set_fallback_resolution(surface, 600, 600);
+  prepare(surface);
+  cairo_t* cairo = cairo_create(surface);
+  draw_on_cairo(cairo, list, 1, true);
+  cairo_show_page(cairo);
+  cairo_destroy(cairo);
+  cairo_surface_finish(surface);
+  const auto status = cairo_surface_status(surface);
+  cairo_surface_destroy(surface);
+  check_cairo(status, "writing");
+  return bytes;
+}
+
+/// The time of writing would make every PDF a different file. Blanks keep the offsets in the file's table
+/// right.
+void remove_creation_date(std::string& pdf) {
+  const std::string key = "/CreationDate";
+  const auto begin = pdf.rfind(key);
+  if (begin == std::string::npos) return;
+  const auto end = pdf.find(')', begin);
+  if (end != std::string::npos && end - begin < 60) pdf.replace(begin, end + 1 - begin, end + 1 - begin, ' ');
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return out;
+}
+
+/// Cairo numbers its surfaces through the life of the program; here they count from 0 in every file.
+std::string renumber_surfaces(const std::string& svg) {
+  static const std::string word = "surface";
+  std::map<std::string, std::string> numbers;
+  std::string out;
+  std::size_t at = 0;
+  for (;;) {
+    const auto found = svg.find(word, at);
+    if (found == std::string::npos) break;
+    const bool named = found > 0 && (svg[found - 1] == '"' || svg[found - 1] == '#');
+    auto end = found + word.size();
+    while (end < svg.size() && svg[end] >= '0' && svg[end] <= '9') ++end;
+    out += svg.substr(at, found + word.size() - at);
+    const auto digits = svg.substr(found + word.size(), end - found - word.size());
+    out += named && !digits.empty() ? numbers.emplace(digits, std::to_string(numbers.size())).first->second
+                                    : digits;
+    at = end;
+  }
+  return out + svg.substr(at);
+}
+
+}  // namespace
+
+image::Image rasterise_by_cairo(const DisplayList& list, double dpi) {
+  const int width = static_cast<int>(std::lround(list.width * dpi / 72));
+  const int height = static_cast<int>(std::lround(list.height * dpi / 72));
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+  cairo_t* cairo = cairo_create(surface);
+  draw_on_cairo(cairo, list, dpi / 72, false);
+  cairo_destroy(cairo);
+  cairo_surface_flush(surface);
+  check_cairo(cairo_surface_status(surface), "drawing");
+  image::Image picture(width, height);
+  const unsigned char* data = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      std::uint32_t value = 0;
+      std::memcpy(&value, data + static_cast<std::ptrdiff_t>(y) * stride + 4 * x, 4);
+      const unsigned alpha = value >> 24;
+      auto* p = picture.pixel(x, y);
+      for (int c = 0; c < 3; ++c) {
+        const unsigned channel = (value >> (16 - 8 * c)) & 255;
+        p[c] = alpha ? static_cast<std::uint8_t>(std::min(255u, (channel * 255 + alpha / 2) / alpha)) : 0;
+      }
+      p[3] = static_cast<std::uint8_t>(alpha);
+    }
+  cairo_surface_destroy(surface);
+  return picture;
+}
+
+void draw_png(const DisplayList& list, const std::filesystem::path& path, double dpi,
+              const Metadata& metadata) {
+  image::write_png(path, rasterise(list, dpi), metadata, 6, dpi);
+}
+
+void draw_pdf(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata) {
+  auto bytes = vector_file(list, cairo_pdf_surface_create_for_stream, [&](cairo_surface_t* surface) {
+    std::string others;
+    for (const auto& [key, value] : metadata) {
+      const auto set = [&, &text = value](cairo_pdf_metadata_t which) {
+        cairo_pdf_surface_set_metadata(surface, which, text.c_str());
+      };
+      if (key == "Title")
+        set(CAIRO_PDF_METADATA_TITLE);
+      else if (key == "Author")
+        set(CAIRO_PDF_METADATA_AUTHOR);
+      else if (key == "Description")
+        set(CAIRO_PDF_METADATA_SUBJECT);
+      else if (key == "Software")
+        set(CAIRO_PDF_METADATA_CREATOR);
+      else
+        others += (others.empty() ? "" : "; ") + key + ": " + value;
+    }
+    if (!others.empty()) cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, others.c_str());
+  });
+  remove_creation_date(bytes);
+  write_atomically(path, bytes);
+}
+
+void draw_svg(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata) {
+  auto svg =
+      renumber_surfaces(vector_file(list, cairo_svg_surface_create_for_stream, [](cairo_surface_t*) {}));
+  std::string head;
+  for (const auto& [key, value] : metadata)
+    if (key == "Title") head += "<title>" + escaped(value) + "</title>\n";
+  std::string rest;
+  for (const auto& [key, value] : metadata)
+    if (key != "Title") rest += escaped(key) + ": " + escaped(value) + "\n";
+  if (!rest.empty()) head += "<desc>" + rest + "</desc>\n";
+  const auto open = svg.find("<svg");
+  const auto end = open == std::string::npos ? open : svg.find(">\n", open);
+  if (end != std::string::npos) svg.insert(end + 2, head);
+  write_atomically(path, svg);
+}
+
+}  // namespace chute::plot

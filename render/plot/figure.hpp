@@ -1,0 +1,110 @@
+#pragma once
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A figure as plain data: what is shown, not where. All texts are in the language of mathtext.hpp. Numbers
+/// are in the units of the axes; NaN means "not known" (an error) or "a gap" (a coordinate).
+namespace chute::plot {
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+enum class Style { journal, slides, dark };  ///< dark: the journal's sizes on a dark ground
+enum class Scale { linear, log };
+
+struct Axis {
+  std::string label;  ///< with its unit: `$v_x$ (m/s)`
+  Scale scale = Scale::linear;
+  std::optional<double> min, max;  ///< automatic where absent
+};
+
+enum class Kind {
+  line,     ///< points joined
+  markers,  ///< points, with error bars where errors are known
+  both,
+  band,   ///< y - y_err to y + y_err filled, y as a line
+  steps,  ///< a histogram's outline; x are bin centres
+  bars,   ///< a histogram, filled
+  dots,   ///< small dots, for thousands of points
+};
+
+struct Series {
+  std::string name;  ///< as in the CSV; series of one name look the same in all panels
+  std::optional<std::string>
+      label;  ///< in the legend; made from the name where absent; empty: not in the legend
+  Kind kind = Kind::both;
+  std::vector<double> x, y;
+  std::vector<double> x_err, y_err;  ///< empty or as long as x; NaN where not known
+  // Automatic where absent: counted through the orders of style.hpp
+  std::optional<int> color, marker, dash;
+};
+
+/// A line that is no data: y = x, an axis, a limit.
+struct Reference {
+  enum class Kind { diagonal, horizontal, vertical } kind = Kind::diagonal;
+  double at = 0;      ///< horizontal: y; vertical: x; diagonal: y = x + at
+  std::string label;  ///< set along the line, empty: none
+};
+
+/// A shaded part of a panel: where x and y lie in the given ranges (unbounded where absent), between the
+/// curves of two series where named.
+struct Region {
+  std::optional<double> x_min, x_max, y_min, y_max;
+  std::string above, below;  ///< names of series that bound it from beneath and from the top
+  int shade = 0;             ///< counted through the order of style.hpp
+};
+
+struct Note {
+  std::string text;
+  double x = 0, y = 0;    ///< of its middle, in the units of the axes
+  bool fraction = false;  ///< x and y are fractions of the frame from its lower left corner instead
+};
+
+enum class Place {
+  automatic,
+  top_left,
+  top_right,
+  bottom_left,
+  bottom_right,
+  top,
+  off
+};  ///< top: above the frame
+
+struct Plot {
+  std::string title;
+  Axis x, y;
+  std::vector<Series> series;
+  std::vector<Reference> references;
+  std::vector<Region> regions;
+  std::vector<Note> notes;
+};
+
+/// A small plot inside a panel.
+struct Inset {
+  Plot plot;
+  double width = 0.42, height = 0.4;  ///< of the frame
+  Place place = Place::automatic;     ///< where it covers no data, or a corner
+};
+
+struct Panel : Plot {
+  std::string label;  ///< "a": set as (a)
+  std::vector<Inset> insets;
+  Place legend = Place::automatic;
+};
+
+enum class Legend { automatic, each, common, off };  ///< automatic: common if the panels show the same series
+
+struct Figure {
+  double width = 86;             ///< mm
+  std::optional<double> height;  ///< mm; from `aspect` where absent
+  double aspect = 0.75;          ///< height of a panel's frame over its width
+  Style style = Style::journal;
+  int columns = 0;                        ///< 0: one up to 100 mm or for one panel, two otherwise
+  bool share_x = false, share_y = false;  ///< one range per column / per row; labels only at the outer panels
+  Legend legend = Legend::automatic;
+  std::vector<Panel> panels;
+  std::string source;  ///< what it was made from, named in messages about it; may be empty
+};
+
+}  // namespace chute::plot

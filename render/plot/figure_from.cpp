@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "plot/recipe.hpp"
+
+namespace chute::plot {
+
+bool matches(std::string_view pattern, std::string_view name) {
+  if (pattern.empty()) return name.empty();
+  if (pattern[0] != '*')
+    return !name.empty() && pattern[0] == name[0] && matches(pattern.substr(1), name.substr(1));
+  for (std::size_t skip = 0; skip <= name.size(); ++skip)
+    if (matches(pattern.substr(1), name.substr(skip))) return true;
+  return false;
+}
+
+namespace {
+
+struct Rows {
+  std::vector<std::string> panel, series;
+  std::vector<double> x, y, x_err, y_err;
+};
+
+bool is_line_by_name(const std::string& name) {
+  return name.starts_with("theory") || name.starts_with("exact") || name.starts_with("linear") ||
+         name.starts_with("eq ") || name.ends_with(" fit");
+}
+
+class Builder {
+ public:
+  Builder(const PlotRecipe& recipe, const read::Table& table) : recipe_(recipe), table_(table) {
+    rows_.panel = table.text("panel"), rows_.series = table.text("series");
+    rows_.x = table.column("x"), rows_.y = table.column("y");
+    if (table.has("x_err")) rows_.x_err = table.column("x_err");
+    if (table.has("y_err")) rows_.y_err = table.column("y_err");
+    if (rows_.x.empty()) fail("no rows to draw");
+    for (const auto& p : rows_.panel)
+      if (std::find(names_.begin(), names_.end(), p) == names_.end()) names_.push_back(p);
+  }
+
+  Figure build() {
+    Figure figure;
+    figure.source = recipe_.source;
+    figure.width = recipe_.width, figure.height = recipe_.height, figure.aspect = recipe_.aspect;
+    figure.style = recipe_.style, figure.columns = static_cast<int>(recipe_.columns);
+    figure.share_x = recipe_.share_x, figure.share_y = recipe_.share_y, figure.legend = recipe_.legend;
+    check_recipe();
+    for (const auto& panel : recipe_.panels) figure.panels.push_back(make_panel(panel));
+    for (const auto& name : names_) {
+      const bool named = std::any_of(recipe_.panels.begin(), recipe_.panels.end(),
+                                     [&](const PanelRecipe& p) { return p.label == name; });
+      if (named || is_inset(name)) continue;
+      PanelRecipe plain;
+      plain.label = name;
+      figure.panels.push_back(make_panel(plain));
+    }
+    if (figure.panels.size() == 1 && names_.size() == 1)
+      figure.panels[0].label.clear();  // (a) alone says nothing
+    return figure;
+  }
+
+ private:
+  const PlotRecipe& recipe_;
+  const read::Table& table_;
+  Rows rows_;
+  std::vector<std::string> names_;  // of panels, as they come in the table
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(table_.file.string() + ": " + what);
+  }
+  [[noreturn]] void fail_recipe(const std::string& what) const {
+    throw InputError((recipe_.source.empty() ? std::string("recipe") : recipe_.source) + ": plot: " + what);
+  }
+
+  bool is_inset(const std::string& panel) const {
+    for (const auto& p : recipe_.panels)
+      for (const auto& inset : p.insets)
+        if (inset.panel == panel) return true;
+    return false;
+  }
+
+  void require_panel(const std::string& name, const char* where) const {
+    if (std::find(names_.begin(), names_.end(), name) != names_.end()) return;
+    fail_recipe(fmt::format("{} \"{}\": no rows of that panel in {}", where, name, table_.file.string()));
+  }
+
+  /// A name that nothing answers to is a slip.
+  void check_recipe() const {
+    for (const auto& p : recipe_.panels) {
+      require_panel(p.label, "panel");
+      for (const auto& inset : p.insets) {
+        if (inset.panel) require_panel(*inset.panel, "inset panel");
+        for (const auto& pattern : inset.series) require_series(pattern, inset.panel.value_or(p.label));
+      }
+    }
+    for (const auto& s : recipe_.series) {
+      if (s.panel) require_panel(*s.panel, "series panel");
+      require_series(s.match, s.panel);
+    }
+  }
+
+  void require_series(const std::string& pattern, const std::optional<std::string>& panel) const {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < rows_.series.size(); ++i) {
+      if (panel && rows_.panel[i] != *panel) continue;
+      if (matches(pattern, rows_.series[i])) return;
+      if (known.empty() || known.back() != rows_.series[i]) known.push_back(rows_.series[i]);
+    }
+    const auto hint = nearest(pattern, known);
+    fail_recipe(fmt::format("series \"{}\": none of that name in {}{}", pattern, table_.file.string(),
+                            hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint)));
+  }
+
+  static Axis make_axis(const AxisRecipe& general, const AxisRecipe& own) {
+    Axis axis;
+    axis.label = own.label.value_or(general.label.value_or(""));
+    const auto scale = own.scale != AxisRecipe::Scale::automatic ? own.scale : general.scale;
+    axis.scale = scale == AxisRecipe::Scale::log ? Scale::log : Scale::linear;
+    axis.min = own.min ? own.min : general.min;
+    axis.max = own.max ? own.max : general.max;
+    return axis;
+  }
+  static double factor(const AxisRecipe& general, const AxisRecipe& own) {
+    return own.factor.value_or(general.factor.value_or(1));
+  }
+
+  const SeriesRecipe* recipe_for(const std::string& name, const std::string& panel) const {
+    for (const auto& s : recipe_.series)
+      if (matches(s.match, name) && (!s.panel || *s.panel == panel)) return &s;
+    return nullptr;
+  }
+
+  /// The panel's series in the order of the table; those that match one of `only`, if there are any.
+  std::vector<Series> make_series(const std::string& panel, const std::vector<std::string>& only, double fx,
+                                  double fy) const {
+    std::vector<Series> found;
+    for (std::size_t i = 0; i < rows_.x.size(); ++i) {
+      const auto& name = rows_.series[i];
+      if (rows_.panel[i] != panel) continue;
+      if (!only.empty() && std::none_of(only.begin(), only.end(), [&](auto& p) { return matches(p, name); }))
+        continue;
+      auto s = std::find_if(found.begin(), found.end(), [&](const Series& f) { return f.name == name; });
+      if (s == found.end()) {
+        found.emplace_back().name = name;
+        s = found.end() - 1;
+      }
+      s->x.push_back(fx * rows_.x[i]), s->y.push_back(fy * rows_.y[i]);
+      s->x_err.push_back(rows_.x_err.empty() ? unknown : std::abs(fx) * rows_.x_err[i]);
+      s->y_err.push_back(rows_.y_err.empty() ? unknown : std::abs(fy) * rows_.y_err[i]);
+    }
+    std::vector<Series> drawn;
+    for (auto& s : found) {
+      const auto* own = recipe_for(s.name, panel);
+      auto kind = own ? own->kind : KindChoice::automatic;
+      if (kind == KindChoice::off) continue;
+      if (kind == KindChoice::automatic && is_line_by_name(s.name)) kind = KindChoice::line;
+      if (kind == KindChoice::automatic) kind = recipe_.kind;
+      if (kind == KindChoice::automatic) kind = s.x.size() > 80 ? KindChoice::line : KindChoice::both;
+      s.kind = static_cast<Kind>(static_cast<int>(kind) - 1);
+      if (own) {
+        s.label = own->label;
+        if (own->color >= 0) s.color = own->color;
+        if (own->marker >= 0) s.marker = own->marker;
+        if (own->dash >= 0) s.dash = own->dash;
+      }
+      drawn.push_back(std::move(s));
+    }
+    return drawn;
+  }
+
+  Panel make_panel(const PanelRecipe& p) const {
+    Panel panel;
+    panel.label = p.label, panel.title = p.title, panel.legend = p.legend;
+    panel.x = make_axis(recipe_.x, p.x), panel.y = make_axis(recipe_.y, p.y);
+    panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
+    panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
+    for (const auto& i : p.insets) {
+      Inset& inset = panel.insets.emplace_back();
+      inset.width = i.width, inset.height = i.height, inset.place = i.place;
+      inset.plot.x = make_axis({}, i.x), inset.plot.y = make_axis({}, i.y);
+      inset.plot.series = make_series(i.panel.value_or(p.label), i.series, factor({}, i.x), factor({}, i.y));
+    }
+    return panel;
+  }
+};
+
+}  // namespace
+
+Figure figure_from(const PlotRecipe& recipe, const read::Table& table) {
+  return Builder(recipe, table).build();
+}
+
+}  // namespace chute::plot

@@ -1,0 +1,380 @@
+#include "plot/layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "common/error.hpp"
+#include "plot/axes.hpp"
+#include "plot/legend.hpp"
+
+namespace chute::plot {
+namespace {
+
+constexpr double inset_from_frame = 6;  // of legends and panel labels: clear of the ticks
+
+bool in_corner(Place p) { return p != Place::automatic && p != Place::top && p != Place::off; }
+
+/// One figure on its way to the page.
+class Layouter {
+ public:
+  explicit Layouter(const Figure& figure)
+      : figure_(figure),
+        look_(look_of(figure.style)),
+        looks_(assign_looks(figure, look_)),
+        sizes_{look_.tick_size, look_.label_size, 0.33 * look_.tick_size} {
+    const int n = static_cast<int>(figure.panels.size());
+    if (n == 0) throw InputError("a figure needs at least one panel");
+    columns_ = figure.columns > 0 ? figure.columns : figure.width <= 100 || n == 1 ? 1 : 2;
+    columns_ = std::min(columns_, n);
+    rows_ = (n + columns_ - 1) / columns_;
+    page_.width = figure.width * points_per_mm;
+    make_axes();
+    make_legends();
+  }
+
+  Layout run() {
+    // a legend that finds no room inside goes above its frame, which moves everything: until all have a place
+    for (std::size_t attempt = 0; attempt <= 2 * legends_.size() + 1; ++attempt) {
+      solve();
+      Layout result = draw();
+      if (settled_) return result;
+    }
+    return draw();
+  }
+
+ private:
+  struct LegendPlan {
+    LegendBlock block;
+    int panel;  // -1: common
+    Place wanted;
+    bool above = false;  // its frame; a common one: above the figure
+    int columns = 1;
+  };
+
+  const Figure& figure_;
+  const Look& look_;
+  std::map<std::string, SeriesLook> looks_;
+  TextSizes sizes_;
+  int columns_ = 1, rows_ = 1;
+  struct {
+    double width = 0, height = 0;
+  } page_;
+  std::vector<std::unique_ptr<Axes>> axes_;
+  std::vector<LegendPlan> legends_;
+  std::vector<Rect> frames_;
+  std::vector<Margins> row_margins_, column_margins_;
+  Place label_place_ = Place::top_left;
+  bool settled_ = false;
+
+  int column(std::size_t panel) const { return static_cast<int>(panel) % columns_; }
+  int row(std::size_t panel) const { return static_cast<int>(panel) / columns_; }
+  bool has_below(std::size_t panel) const {
+    return panel + static_cast<std::size_t>(columns_) < figure_.panels.size();
+  }
+
+  void make_axes() {
+    const auto& panels = figure_.panels;
+    std::vector<Extents> extents;
+    for (const auto& p : panels) extents.push_back(extents_of(p));
+    const auto merged = [](Extent a, const Extent& b) {
+      a.low = std::min(a.low, b.low), a.high = std::max(a.high, b.high);
+      a.from_zero |= b.from_zero, a.pad_low |= b.pad_low, a.pad_high |= b.pad_high;
+      return a;
+    };
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      Extent ex = extents[i].x, ey = extents[i].y;
+      for (std::size_t k = 0; k < panels.size(); ++k) {
+        if (figure_.share_x && column(k) == column(i)) ex = merged(ex, extents[k].x);
+        if (figure_.share_y && row(k) == row(i)) ey = merged(ey, extents[k].y);
+      }
+      axes_.push_back(std::make_unique<Axes>(panels[i], span_of(panels[i].x, ex), span_of(panels[i].y, ey),
+                                             sizes_, !figure_.share_x || !has_below(i),
+                                             !figure_.share_y || column(i) == 0));
+    }
+  }
+
+  /// Series names that a panel shows; those in insets too.
+  static void add_series(LegendBlock& block, const Panel& panel) {
+    for (const auto& s : panel.series) block.add(s);
+    for (const auto& inset : panel.insets)
+      for (const auto& s : inset.plot.series) block.add(s);
+  }
+
+  void make_legends() {
+    const auto& panels = figure_.panels;
+    if (figure_.legend == Legend::off) return;
+    bool common = figure_.legend == Legend::common;
+    if (figure_.legend == Legend::automatic && panels.size() > 1) {
+      // the same series everywhere: all panels share most of what they show with the first
+      std::set<std::string> first;
+      for (const auto& s : panels[0].series) first.insert(s.name);
+      common = first.size() > 1;
+      for (const auto& p : panels) {
+        std::size_t shared = 0;
+        for (const auto& s : p.series) shared += first.count(s.name);
+        common =
+            common && 2 * shared >= std::max(p.series.size(), first.size()) && p.legend == Place::automatic;
+      }
+    }
+    if (common) {
+      LegendPlan plan{{look_, looks_}, -1, Place::automatic};
+      for (const auto& p : panels) add_series(plan.block, p);
+      if (plan.block.count() > 1) legends_.push_back(std::move(plan));
+      return;
+    }
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      if (panels[i].legend == Place::off) continue;
+      LegendPlan plan{{look_, looks_}, static_cast<int>(i), panels[i].legend, panels[i].legend == Place::top};
+      add_series(plan.block, panels[i]);
+      bool asked = panels[i].legend != Place::automatic;
+      for (const auto& s : panels[i].series) asked = asked || (s.label && !s.label->empty());
+      if (plan.block.count() > (asked ? 0 : 1)) legends_.push_back(std::move(plan));
+    }
+  }
+
+  bool labels_above() const {
+    return label_place_ == Place::top || std::any_of(figure_.panels.begin(), figure_.panels.end(),
+                                                     [](const Panel& p) { return !p.title.empty(); });
+  }
+  std::string heading(const Panel& p) const {
+    const auto label = p.label.empty() ? "" : "(" + p.label + ")";
+    return label + (label.empty() || p.title.empty() ? "" : " ") + p.title;
+  }
+  double heading_height(const Panel& p) const {
+    if (!labels_above() || heading(p).empty()) return 0;
+    const auto text = set_text(heading(p), look_.panel_size);
+    return text.ascent + text.descent + sizes_.gap;
+  }
+  double legend_height(int panel) const {
+    for (const auto& l : legends_)
+      if (l.panel == panel && l.above) return l.block.height(l.columns) + sizes_.gap;
+    return 0;
+  }
+
+  /// Finds frames such that every text has its room.
+  void solve() {
+    const auto n = figure_.panels.size();
+    const double margin = look_.margin, between = 0.9 * look_.tick_size;
+    column_margins_.assign(static_cast<std::size_t>(columns_), {});
+    row_margins_.assign(static_cast<std::size_t>(rows_), {});
+    double width = page_.width / columns_ * 0.8,
+           height = figure_.height.value_or(60) * points_per_mm / rows_ * 0.7;
+    if (!figure_.height) height = figure_.aspect * width;
+    for (int pass = 0; pass < 8; ++pass) {
+      const double old_width = width, old_height = height;
+      for (std::size_t i = 0; i < n; ++i) {
+        Margins m = axes_[i]->fit(width, height);
+        m.top += heading_height(figure_.panels[i]) + above_frame(static_cast<int>(i), width);
+        Margins &c = column_margins_[static_cast<std::size_t>(column(i))],
+                &r = row_margins_[static_cast<std::size_t>(row(i))];
+        c.left = std::max(c.left, m.left), c.right = std::max(c.right, m.right);
+        r.top = std::max(r.top, m.top), r.bottom = std::max(r.bottom, m.bottom);
+      }
+      double used = 2 * margin + between * (columns_ - 1);
+      for (const auto& m : column_margins_) used += m.left + m.right;
+      width = (page_.width - used) / columns_;
+      const double top = above_figure();
+      used = 2 * margin + between * (rows_ - 1) + top;
+      for (const auto& m : row_margins_) used += m.top + m.bottom;
+      page_.height = figure_.height ? *figure_.height * points_per_mm : used + rows_ * figure_.aspect * width;
+      height = (page_.height - used) / rows_;
+      if (width < 4 * look_.tick_size || height < 3 * look_.tick_size)
+        throw InputError(
+            fmt::format("a page of {:.0f} mm by {:.0f} mm is too small for {} panels in {} columns",
+                        figure_.width, page_.height / points_per_mm, n, columns_));
+      if (std::abs(width - old_width) < 1e-9 && std::abs(height - old_height) < 1e-9) break;
+    }
+    place_frames(n, margin, between, width, height);
+  }
+
+  void place_frames(std::size_t n, double margin, double between, double width, double height) {
+    frames_.assign(n, {});
+    double y = margin + above_figure();
+    for (int r = 0; r < rows_; ++r) {
+      const auto& rm = row_margins_[static_cast<std::size_t>(r)];
+      y += rm.top;
+      double x = margin;
+      for (int c = 0; c < columns_; ++c) {
+        const auto& cm = column_margins_[static_cast<std::size_t>(c)];
+        x += cm.left;
+        const auto i = static_cast<std::size_t>(r * columns_ + c);
+        if (i < n) frames_[i] = {x, y, x + width, y + height};
+        x += width + cm.right + between;
+      }
+      y += height + rm.bottom + between;
+    }
+  }
+
+  double above_frame(int panel, double width) {
+    for (auto& l : legends_)
+      if (l.panel == panel && l.above) l.columns = l.block.columns_within(width);
+    return legend_height(panel);
+  }
+  double above_figure() {
+    for (auto& l : legends_)
+      if (l.panel == -1 && l.above) l.columns = l.block.columns_within(page_.width - 2 * look_.margin);
+    return legend_height(-1) > 0 ? legend_height(-1) + sizes_.gap : 0;
+  }
+
+  Layout draw() {
+    settled_ = true;
+    Layout out;
+    out.list.width = page_.width, out.list.height = page_.height, out.list.background = look_.paper;
+    const auto n = figure_.panels.size();
+    std::vector<Occupancy> occupied;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Frame frame{frames_[i], axes_[i]->x(), axes_[i]->y()};
+      Painter painter{out.list, look_, occupied.emplace_back(frames_[i])};
+      draw_marks(painter, frame, figure_.panels[i], looks_);
+      Margins common;
+      common.left = column_margins_[static_cast<std::size_t>(column(i))].left;
+      common.right = column_margins_[static_cast<std::size_t>(column(i))].right;
+      axes_[i]->draw(out.list, look_, frames_[i], common, static_cast<int>(i), out.boxes);
+    }
+    put_headings(out, occupied);
+    for (std::size_t i = 0; i < n; ++i)
+      for (const auto& inset : figure_.panels[i].insets)
+        put_inset(out, inset, static_cast<int>(i), occupied[i]);
+    for (auto& legend : legends_) put_legend(out, legend, occupied);
+    return out;
+  }
+
+  /// (a), (b) in the same corner of all panels, where none of them covers data; above the frames if there is
+  /// no such corner, or if there are titles.
+  void put_headings(Layout& out, std::vector<Occupancy>& occupied) {
+    const auto& panels = figure_.panels;
+    const bool any =
+        std::any_of(panels.begin(), panels.end(), [&](const Panel& p) { return !heading(p).empty(); });
+    if (!any) return;
+    std::vector<TextBox> texts;
+    for (const auto& p : panels) texts.push_back(set_text(heading(p), look_.panel_size));
+    if (!labels_above()) {
+      std::optional<Place> found;
+      for (Place place : {Place::top_left, Place::top_right, Place::bottom_left, Place::bottom_right}) {
+        bool good = true;
+        for (std::size_t i = 0; i < panels.size() && good; ++i)
+          good = texts[i].empty() || occupied[i].room_for(texts[i].width, texts[i].ascent + texts[i].descent,
+                                                          inset_from_frame, place);
+        if (good) {
+          found = place;
+          break;
+        }
+      }
+      if (!found) {
+        label_place_ = Place::top, settled_ = false;
+        return;
+      }
+      for (std::size_t i = 0; i < panels.size(); ++i) {
+        if (texts[i].empty()) continue;
+        const Point corner =
+            occupied[i].corner(texts[i].width, texts[i].ascent + texts[i].descent, inset_from_frame, *found);
+        put_heading(out, texts[i], {corner.x, corner.y + texts[i].ascent}, i);
+        occupied[i].mark(texts[i].box_at({corner.x, corner.y + texts[i].ascent}));
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      if (texts[i].empty()) continue;
+      texts[i] = set_to_fit(heading(panels[i]), look_.panel_size, frames_[i].width());
+      const auto& rm = row_margins_[static_cast<std::size_t>(row(i))];
+      const double top = frames_[i].top - rm.top;  // all headings of a row at one height
+      double ascent = 0;
+      for (std::size_t k = 0; k < panels.size(); ++k)
+        if (row(k) == row(i)) ascent = std::max(ascent, texts[k].ascent);
+      put_heading(out, texts[i], {frames_[i].left, top + ascent}, i);
+    }
+  }
+  void put_heading(Layout& out, const TextBox& text, Point at, std::size_t i) {
+    draw_text(out.list, text, at, look_.ink);
+    out.boxes.push_back({figure_.panels[i].title.empty() ? Box::Kind::panel_label : Box::Kind::title,
+                         text.box_at(at), static_cast<int>(i), heading(figure_.panels[i])});
+  }
+
+  void put_legend(Layout& out, LegendPlan& legend, std::vector<Occupancy>& occupied) {
+    if (legend.above) {
+      if (legend.panel == -1) {
+        const double width = legend.block.width(legend.columns);
+        legend.block.draw(out.list, {(page_.width - width) / 2, look_.margin}, legend.columns, -1, out.boxes);
+        return;
+      }
+      const auto i = static_cast<std::size_t>(legend.panel);
+      const double heading = heading_height(figure_.panels[i]);
+      const double top = frames_[i].top - row_margins_[static_cast<std::size_t>(row(i))].top + heading;
+      legend.block.draw(out.list, {frames_[i].left, top}, legend.columns, legend.panel, out.boxes);
+      return;
+    }
+    for (int columns : {1, 2}) {
+      const double width = legend.block.width(columns), height = legend.block.height(columns);
+      for (std::size_t i = 0; i < occupied.size(); ++i) {
+        if (legend.panel != -1 && legend.panel != static_cast<int>(i)) continue;
+        auto at = occupied[i].room_for(width, height, inset_from_frame, legend.wanted);
+        if (!at && in_corner(legend.wanted))
+          at = occupied[i].corner(width, height, inset_from_frame, legend.wanted);
+        if (!at) continue;
+        legend.block.draw(out.list, *at, columns, static_cast<int>(i), out.boxes);
+        occupied[i].mark({at->x, at->y, at->x + width, at->y + height});
+        return;
+      }
+    }
+    legend.above = true, settled_ = false;
+  }
+
+  void put_inset(Layout& out, const Inset& inset, int panel, Occupancy& occupied) {
+    const Rect& frame = frames_[static_cast<std::size_t>(panel)];
+    const double width = inset.width * frame.width(), height = inset.height * frame.height();
+    auto at = occupied.room_for(width, height, inset_from_frame, inset.place);
+    if (!at && in_corner(inset.place)) at = occupied.corner(width, height, inset_from_frame, inset.place);
+    if (!at) {  // the least bad corner
+      double least = 2;
+      for (Place place : {Place::top_right, Place::top_left, Place::bottom_right, Place::bottom_left}) {
+        const Point p = occupied.corner(width, height, inset_from_frame, place);
+        const double covered = occupied.covered({p.x, p.y, p.x + width, p.y + height});
+        if (covered < least) least = covered, at = p;
+      }
+    }
+    const Rect outer{at->x, at->y, at->x + width, at->y + height};
+    const auto extents = extents_of(inset.plot);
+    const double shrink = std::max(0.8, smallest_type / look_.tick_size);
+    const TextSizes sizes{shrink * look_.tick_size, shrink * look_.label_size, 0.8 * sizes_.gap};
+    Axes axes(inset.plot, span_of(inset.plot.x, extents.x), span_of(inset.plot.y, extents.y), sizes, true,
+              true);
+    Margins m;
+    Rect inner;
+    for (int pass = 0; pass < 5; ++pass) {
+      inner = {outer.left + m.left, outer.top + m.top, outer.right - m.right, outer.bottom - m.bottom};
+      if (inner.width() < 3 * sizes.tick || inner.height() < 2 * sizes.tick)
+        throw InputError(fmt::format("an inset of {} by {} of its panel is too small for its labels",
+                                     inset.width, inset.height));
+      m.widen(axes.fit(inner.width(), inner.height()));
+    }
+    inner = {outer.left + m.left, outer.top + m.top, outer.right - m.right, outer.bottom - m.bottom};
+    Path ground;
+    out.list.fill(ground.rectangle(outer), look_.paper);
+    Look small = look_;
+    small.marker_size *= 0.75, small.line_width *= 0.85, small.cap *= 0.75;
+    Occupancy inside(inner);
+    Painter painter{out.list, small, inside};
+    draw_marks(painter, Frame{inner, axes.x(), axes.y()}, inset.plot, looks_);
+    std::vector<Box> own;
+    axes.draw(out.list, look_, inner, m, panel, own);
+    out.boxes.push_back({Box::Kind::inset, outer, panel, ""});
+    occupied.mark(outer);
+  }
+};
+
+}  // namespace
+
+Layout lay_out(const Figure& figure) {
+  try {
+    return Layouter(figure).run();
+  } catch (const InputError& error) {
+    throw figure.source.empty() ? error : InputError(figure.source + ": " + error.what());
+  }
+}
+
+}  // namespace chute::plot

@@ -1,0 +1,49 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "plot/layout.hpp"
+#include "plot/marks.hpp"
+#include "plot/mathtext.hpp"
+
+namespace chute::plot {
+
+/// "e_n=0.7 fine" as a label: "$e_n=0.7$, fine". Names of quantities become symbols (mu, Phi, eps_max,
+/// k_s/k_n …), powers of ten and units of numbers are set, words stay words.
+std::string label_from_name(const std::string& name);
+
+/// Samples and names of series in rows and columns.
+class LegendBlock {
+ public:
+  LegendBlock(const Look& look, const std::map<std::string, SeriesLook>& looks)
+      : look_(&look), looks_(&looks) {}
+
+  /// Adds the series unless its name is there already or its label is empty.
+  void add(const Series& series);
+  std::size_t count() const { return entries_.size(); }
+
+  double width(int columns) const;
+  double height(int columns) const;
+  /// As many columns as fit side by side, at least one.
+  int columns_within(double width) const;
+  void draw(DisplayList& list, Point top_left, int columns, int panel, std::vector<Box>& boxes) const;
+
+ private:
+  struct Entry {
+    const Series* series;
+    TextBox text;
+    std::string source;
+  };
+  const Look* look_;
+  const std::map<std::string, SeriesLook>* looks_;
+  std::vector<Entry> entries_;
+
+  int rows(int columns) const { return (static_cast<int>(entries_.size()) + columns - 1) / columns; }
+  std::vector<double> column_widths(int columns) const;
+  double row_height() const;
+  double sample() const { return 2.1 * look_->legend_size; }
+  double gap() const { return 0.45 * look_->legend_size; }
+};
+
+}  // namespace chute::plot

@@ -1,0 +1,334 @@
+#include "plot/marks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/error.hpp"
+#include "plot/polyline.hpp"
+#include "plot/shading.hpp"
+
+namespace chute::plot {
+namespace {
+
+bool has_line(Kind kind) { return kind == Kind::line || kind == Kind::both || kind == Kind::band; }
+bool has_markers(Kind kind) { return kind == Kind::markers || kind == Kind::both; }
+bool has_bins(Kind kind) { return kind == Kind::steps || kind == Kind::bars; }
+
+double error_at(const std::vector<double>& errors, std::size_t i) {
+  return i < errors.size() ? errors[i] : unknown;
+}
+
+void check_lengths(const Series& s) {
+  const auto wrong = [&](const char* column) {
+    throw InputError(fmt::format("series \"{}\": {} has another length than x", s.name, column));
+  };
+  if (s.y.size() != s.x.size()) wrong("y");
+  if (!s.x_err.empty() && s.x_err.size() != s.x.size()) wrong("x_err");
+  if (!s.y_err.empty() && s.y_err.size() != s.x.size()) wrong("y_err");
+}
+
+/// Edges of a histogram's bins from their centres: halfway between neighbours, the outer ones as wide inside
+/// as out.
+std::vector<double> bin_edges(const std::vector<double>& x) {
+  std::vector<double> edges;
+  const std::size_t n = x.size();
+  if (n == 1) return {x[0] - 0.5, x[0] + 0.5};
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (i == 0) edges.push_back(1.5 * x[0] - 0.5 * x[1]);
+    edges.push_back((x[i] + x[i + 1]) / 2);
+  }
+  if (n > 1) edges.push_back(1.5 * x[n - 1] - 0.5 * x[n - 2]);
+  return edges;
+}
+
+/// The outline of a histogram from the ground up and down again; in a log frame the ground is the frame's
+/// lower edge.
+std::vector<Point> outline_of(const Frame& frame, const Series& s) {
+  const auto edges = bin_edges(s.x);
+  const double ground =
+      frame.y.scale == Scale::log || frame.y.low > 0 ? frame.y.low : std::min(0.0, frame.y.high);
+  const auto height = [&](double y) { return frame.y.scale == Scale::log && !(y > 0) ? ground : y; };
+  std::vector<Point> points;
+  if (s.x.empty()) return points;
+  points.push_back(frame.at(edges[0], ground));
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    const double y = std::isnan(s.y[i]) ? ground : height(s.y[i]);
+    points.push_back(frame.at(edges[i], y));
+    points.push_back(frame.at(edges[i + 1], y));
+  }
+  points.push_back(frame.at(edges.back(), ground));
+  return points;
+}
+
+class SeriesPainter {
+ public:
+  SeriesPainter(Painter& painter, const Frame& frame, const Series& series, const SeriesLook& ink)
+      : p_(painter), frame_(frame), s_(series), ink_(ink) {}
+
+  void area() {
+    if (s_.kind == Kind::band) band();
+    if (s_.kind == Kind::bars) {
+      Path path;
+      add_polyline(path, outline_of(frame_, s_), frame_.rect);
+      p_.list.fill(path, ink_.color.with_alpha(0.3));
+      mark_bins();
+    }
+  }
+
+  void lines() {
+    std::vector<Point> points;
+    const double width = has_bins(s_.kind) ? 0.8 * p_.look.line_width : p_.look.line_width;
+    if (has_bins(s_.kind)) {
+      points = outline_of(frame_, s_);
+    } else if (has_line(s_.kind)) {
+      for (std::size_t i = 0; i < s_.x.size(); ++i) points.push_back(frame_.at(s_.x[i], s_.y[i]));
+    }
+    if (points.empty()) return;
+    Path path;
+    add_polyline(path, points, frame_.rect);
+    // with markers the line stays solid: the markers tell the series apart
+    const bool dashed = s_.kind == Kind::line || s_.kind == Kind::band || s_.kind == Kind::steps;
+    p_.list.stroke(path,
+                   {width, dashed ? dash_pattern(ink_.dash, width) : std::vector<double>{}, Cap::butt,
+                    has_bins(s_.kind) ? Join::miter : Join::round},
+                   ink_.color);
+    mark_polyline(p_.occupied, points, frame_.rect, width);
+    if (s_.kind == Kind::steps) mark_bins();
+  }
+
+  void dots() {
+    if (s_.kind != Kind::dots) return;
+    DotsItem item;
+    // a crowd is drawn with finer dots, or it would run together
+    const double crowd = std::clamp(std::sqrt(3000.0 / static_cast<double>(s_.x.size() + 1)), 0.5, 1.0);
+    item.shape = dot_shape(crowd * p_.look.dot_radius, ink_.marker);
+    item.color = ink_.color;
+    for (std::size_t i = 0; i < s_.x.size(); ++i) {
+      const Point at = frame_.at(s_.x[i], s_.y[i]);
+      if (!frame_.rect.contains(at, 1)) continue;
+      item.at.push_back(at);
+      p_.occupied.mark(Rect{at.x, at.y, at.x, at.y}.grown(p_.look.dot_radius));
+    }
+    if (!item.at.empty()) p_.list.items.emplace_back(std::move(item));
+  }
+
+  void error_bars() {
+    if (s_.kind == Kind::line || s_.kind == Kind::dots || s_.kind == Kind::band) return;
+    Path path;
+    for (std::size_t i = 0; i < s_.x.size(); ++i) {
+      if (!frame_.rect.contains(frame_.at(s_.x[i], s_.y[i]), 0.01)) continue;
+      bar(path, i, error_at(s_.y_err, i), true);
+      if (!has_bins(s_.kind)) bar(path, i, error_at(s_.x_err, i), false);
+    }
+    if (!path.empty()) p_.list.stroke(path, {1.3 * p_.look.hairline, {}, Cap::butt, Join::miter}, ink_.color);
+  }
+
+  void markers() {
+    if (!has_markers(s_.kind)) return;
+    const auto shape = marker_shape(ink_.marker, p_.look.marker_size);
+    for (std::size_t i = 0; i < s_.x.size(); ++i) {
+      const Point at = frame_.at(s_.x[i], s_.y[i]);
+      if (!frame_.rect.contains(at, 0.01)) continue;
+      draw_marker(p_.list, p_.look, shape, ink_.color, at);
+      p_.occupied.mark(shape.path.bounds().moved(at));
+    }
+  }
+
+  static void draw_marker(DisplayList& list, const Look& look, const MarkerShape& shape, Color color,
+                          Point at) {
+    Path path;
+    path.append(shape.path, at);
+    const Stroke pen{0.85 * look.line_width, {}, Cap::butt, Join::miter};
+    if (shape.paint == MarkerShape::Paint::hollow) list.fill(path, look.paper);
+    if (shape.paint == MarkerShape::Paint::filled)
+      list.fill(path, color);
+    else
+      list.stroke(path, pen, color);
+  }
+
+  /// Scatter dots differ in shape too, as far as their size lets one see it.
+  static Path dot_shape(double radius, int marker) {
+    switch (marker % 3) {
+      case 0:
+        return Path{}.circle({}, radius);
+      case 1:
+        return marker_shape(6, 2 * radius).path;  // square
+      default:
+        return marker_shape(2, 2.2 * radius).path;  // triangle
+    }
+  }
+
+ private:
+  Painter& p_;
+  const Frame& frame_;
+  const Series& s_;
+  const SeriesLook& ink_;
+
+  void mark_bins() {
+    const auto points = outline_of(frame_, s_);
+    if (points.empty()) return;
+    for (std::size_t i = 1; i + 2 < points.size(); i += 2)
+      if (!std::isnan(points[i].x))
+        p_.occupied.mark({points[i].x, std::min(points[i].y, points[0].y), points[i + 1].x,
+                          std::max(points[i].y, points[0].y)});
+  }
+
+  void band() {
+    std::vector<Point> upper, lower;
+    const auto flush = [&] {
+      std::vector<Point> ring = upper;
+      ring.insert(ring.end(), lower.rbegin(), lower.rend());
+      if (upper.size() > 1) {
+        p_.list.fill(polygon_inside(ring, frame_.rect), ink_.color.with_alpha(0.25));
+        for (std::size_t i = 0; i + 1 < upper.size(); ++i)
+          p_.occupied.mark({upper[i].x, std::min(upper[i].y, upper[i + 1].y), upper[i + 1].x,
+                            std::max(lower[i].y, lower[i + 1].y)});
+      }
+      upper.clear(), lower.clear();
+    };
+    for (std::size_t i = 0; i < s_.x.size(); ++i) {
+      const double e = error_at(s_.y_err, i);
+      const bool log = frame_.y.scale == Scale::log;
+      const double low = log && s_.y[i] - e <= 0 ? frame_.y.low : s_.y[i] - e;
+      const Point a = frame_.at(s_.x[i], s_.y[i] + e), b = frame_.at(s_.x[i], low);
+      if (std::isnan(a.x) || std::isnan(a.y) || std::isnan(b.y))
+        flush();
+      else
+        upper.push_back(a), lower.push_back(b);
+    }
+    flush();
+  }
+
+  void bar(Path& path, std::size_t i, double error, bool vertical) {
+    if (!(error > 0)) return;
+    const double centre = vertical ? s_.y[i] : s_.x[i];
+    const Span& span = vertical ? frame_.y : frame_.x;
+    const Rect& r = frame_.rect;
+    for (double sign : {-1.0, 1.0}) {
+      double end = centre + sign * error;
+      const bool beyond = (span.scale == Scale::log && end <= 0) || end < span.low || end > span.high;
+      end = std::clamp(end, span.low, span.high);
+      const Point a = frame_.at(s_.x[i], s_.y[i]);
+      const Point b =
+          vertical ? Point{a.x, frame_.at(s_.x[i], end).y} : Point{frame_.at(end, s_.y[i]).x, a.y};
+      path.move(a).line(b);
+      p_.occupied.mark_segment(a, b, p_.look.cap);
+      if (beyond) continue;  // the frame cuts it: no cap
+      const double half = p_.look.cap / 2;
+      if (vertical)
+        path.move({std::max(r.left, b.x - half), b.y}).line({std::min(r.right, b.x + half), b.y});
+      else
+        path.move({b.x, std::max(r.top, b.y - half)}).line({b.x, std::min(r.bottom, b.y + half)});
+    }
+  }
+};
+
+bool ends_with_fit(const std::string& name) { return name.size() > 4 && name.ends_with(" fit"); }
+
+}  // namespace
+
+std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look& look) {
+  std::map<std::string, SeriesLook> looks;
+  std::map<std::string, int> indices;
+  int next = 0, next_dash = 0;
+  const auto color = [&](int i) { return look.colors[static_cast<std::size_t>(i) % look.colors.size()]; };
+  const auto assign = [&](const Series& s) {
+    if (looks.count(s.name)) return;
+    const auto base =
+        ends_with_fit(s.name) ? indices.find(s.name.substr(0, s.name.size() - 4)) : indices.end();
+    const bool automatic = !s.color && base == indices.end();
+    const int index = s.color ? *s.color : base != indices.end() ? base->second : next;
+    if (automatic) ++next;
+    indices[s.name] = index;
+    const bool dashed = s.kind == Kind::line || s.kind == Kind::band || s.kind == Kind::steps;
+    const int dash = s.dash ? *s.dash : dashed ? next_dash++ : 0;
+    looks[s.name] = {color(index), s.marker.value_or(index), dash};
+  };
+  for (const auto& panel : figure.panels) {
+    for (const auto& s : panel.series) assign(s);
+    for (const auto& inset : panel.insets)
+      for (const auto& s : inset.plot.series) assign(s);
+  }
+  return looks;
+}
+
+Extents extents_of(const Plot& plot) {
+  Extents e;
+  for (const auto& s : plot.series) {
+    check_lengths(s);
+    const bool bins = has_bins(s.kind), points = has_markers(s.kind) || s.kind == Kind::dots;
+    if (bins) e.y.from_zero = plot.y.scale == Scale::linear;
+    if (points) e.x.pad_low = e.x.pad_high = e.y.pad_low = true;
+    e.y.pad_high = true;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+      if ((plot.x.scale == Scale::log && s.x[i] <= 0) || (plot.y.scale == Scale::log && s.y[i] <= 0))
+        continue;
+      // what a given range of the other axis hides asks for no room
+      if ((plot.x.min && s.x[i] < *plot.x.min) || (plot.x.max && s.x[i] > *plot.x.max)) continue;
+      if ((plot.y.min && s.y[i] < *plot.y.min) || (plot.y.max && s.y[i] > *plot.y.max)) continue;
+      e.x.include(s.x[i], plot.x.scale), e.y.include(s.y[i], plot.y.scale);
+      if (s.kind == Kind::line || s.kind == Kind::dots) continue;
+      const double dy = error_at(s.y_err, i), dx = error_at(s.x_err, i);
+      if (dy > 0) e.y.include(s.y[i] + dy, plot.y.scale), e.y.include(s.y[i] - dy, plot.y.scale);
+      if (dx > 0 && !bins) e.x.include(s.x[i] + dx, plot.x.scale), e.x.include(s.x[i] - dx, plot.x.scale);
+    }
+    if (bins && !s.x.empty()) {
+      const auto edges = bin_edges(s.x);
+      e.x.include(edges.front(), plot.x.scale), e.x.include(edges.back(), plot.x.scale);
+    }
+  }
+  if (e.y.low < 0 || e.y.pad_low) e.y.pad_low = true;
+  for (const auto& r : plot.references) {
+    if (r.kind == Reference::Kind::horizontal) e.y.include(r.at, plot.y.scale);
+    if (r.kind == Reference::Kind::vertical) e.x.include(r.at, plot.x.scale);
+  }
+  return e;
+}
+
+void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
+                const std::map<std::string, SeriesLook>& looks) {
+  painter.list.items.emplace_back(ClipBegin{frame.rect});
+  for (const auto& region : plot.regions) draw_region(painter, frame, plot, region);
+  for (const auto& reference : plot.references) draw_reference(painter, frame, reference);
+  std::vector<SeriesPainter> series;
+  for (const auto& s : plot.series) series.emplace_back(painter, frame, s, looks.at(s.name));
+  for (auto& s : series) s.area();
+  for (auto& s : series) s.dots();
+  for (auto& s : series) s.lines();
+  painter.list.items.emplace_back(ClipEnd{});
+  for (auto& s : series) s.error_bars();
+  for (auto& s : series) s.markers();
+  for (const auto& note : plot.notes) draw_note(painter, frame, note);
+}
+
+void draw_sample(DisplayList& list, const Look& look, const Series& series, const SeriesLook& ink, Point at,
+                 double width) {
+  const double middle = at.x + width / 2, half = 0.32 * look.legend_size;
+  if (series.kind == Kind::bars || series.kind == Kind::band) {
+    Path box;
+    box.rectangle({at.x + (series.kind == Kind::bars ? 4 : 0), at.y - half,
+                   at.x + width - (series.kind == Kind::bars ? 4 : 0), at.y + half});
+    list.fill(box, ink.color.with_alpha(series.kind == Kind::bars ? 0.3 : 0.25));
+    if (series.kind == Kind::bars)
+      list.stroke(box, {0.8 * look.line_width, {}, Cap::butt, Join::miter}, ink.color);
+  }
+  if (has_line(series.kind) || series.kind == Kind::steps) {
+    const bool dashed = series.kind != Kind::both;
+    Path line;
+    line.move({at.x, at.y}).line({at.x + width, at.y});
+    list.stroke(line,
+                {look.line_width, dashed ? dash_pattern(ink.dash, look.line_width) : std::vector<double>{}},
+                ink.color);
+  }
+  if (series.kind == Kind::dots) {
+    const auto shape = SeriesPainter::dot_shape(1.6 * look.dot_radius, ink.marker);
+    list.items.emplace_back(DotsItem{shape, {{middle, at.y}}, ink.color});
+  }
+  if (has_markers(series.kind))
+    SeriesPainter::draw_marker(list, look, marker_shape(ink.marker, look.marker_size), ink.color,
+                               {middle, at.y});
+}
+
+}  // namespace chute::plot

@@ -1,0 +1,56 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "plot/display_list.hpp"
+#include "plot/figure.hpp"
+#include "plot/occupancy.hpp"
+#include "plot/scale.hpp"
+#include "plot/style.hpp"
+
+/// Series as ink inside a frame.
+namespace chute::plot {
+
+/// The frame on the page and what its edges mean.
+struct Frame {
+  Rect rect;
+  Span x, y;
+
+  /// NaN where an axis cannot show the value.
+  Point at(double px, double py) const {
+    return {rect.left + x.fraction(px) * rect.width(), rect.bottom - y.fraction(py) * rect.height()};
+  }
+};
+
+/// Colour, marker and dash of a series.
+struct SeriesLook {
+  Color color;
+  int marker = 0, dash = 0;
+};
+
+/// One look per name, the same in every panel: colours and markers in the order in which names first appear,
+/// dashes among those drawn as lines. "NAME fit" takes the colour of NAME.
+std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look& look);
+
+struct Painter {
+  DisplayList& list;
+  const Look& look;
+  Occupancy& occupied;
+};
+
+/// What each axis must show of these series.
+struct Extents {
+  Extent x, y;
+};
+Extents extents_of(const Plot& plot);
+
+/// Everything inside the frame, in order: regions, references, bands, bars, lines, error bars, markers.
+/// InputError if a region names an unknown series or a series' columns differ in length.
+void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
+                const std::map<std::string, SeriesLook>& looks);
+
+/// The sample of a series in a legend: `width` points wide, its middle line at `at.y`.
+void draw_sample(DisplayList& list, const Look& look, const Series& series, const SeriesLook& ink, Point at,
+                 double width);
+
+}  // namespace chute::plot

@@ -1,0 +1,308 @@
+#include "plot/mathtext.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "plot/fonts.hpp"
+#include "plot/mathparse.hpp"
+
+namespace chute::plot {
+namespace {
+
+constexpr double slant = 0.28;           // of the italics, horizontal per vertical
+constexpr double script_ratio = 0.7;     // as in TeX
+constexpr double rule_thickness = 0.05;  // em
+
+double script_size(double size) { return std::min(size, std::max(script_ratio * size, smallest_type)); }
+
+/// Growing line of boxes.
+struct Line {
+  TextBox box;
+  double italic_correction = 0;  ///< how far the last letter leans over its advance
+  bool last_italic = false;
+
+  void extend(double ascent, double descent) {
+    box.ascent = std::max(box.ascent, ascent), box.descent = std::max(box.descent, descent);
+  }
+  /// Puts `other` with its origin at (x, y) of this line; does not advance.
+  void put(const TextBox& other, double x, double y) {
+    for (GlyphRun run : other.runs) {
+      for (auto& g : run.glyphs) g.at = g.at + Point{x, y};
+      if (!box.runs.empty() && box.runs.back().face == run.face && box.runs.back().size == run.size) {
+        auto& last = box.runs.back();
+        last.glyphs.insert(last.glyphs.end(), run.glyphs.begin(), run.glyphs.end());
+        last.text += run.text;
+      } else {
+        box.runs.push_back(std::move(run));
+      }
+    }
+    for (const auto& rule : other.rules) box.rules.push_back(rule.moved({x, y}));
+    if (other.ink.left <= other.ink.right) box.ink.include(other.ink.moved({x, y}));
+    extend(other.ascent - y, other.descent + y);
+  }
+  void rule(const Rect& r) {
+    box.rules.push_back(r);
+    box.ink.include(r);
+    extend(-r.top, r.bottom);
+  }
+};
+
+class Setter {
+ public:
+  explicit Setter(bool bold) : fonts_(Fonts::mine()), bold_(bold) {}
+
+  Line set(const MathNode& node, double size, bool script) {
+    switch (node.kind) {
+      case MathNode::Kind::characters:
+        return characters(node, size);
+      case MathNode::Kind::row:
+        return row(node, size, script);
+      case MathNode::Kind::scripts:
+        return scripts(node, size);
+      case MathNode::Kind::fraction:
+        return fraction(node, size);
+      case MathNode::Kind::root:
+        return root(node, size, script);
+      case MathNode::Kind::accent:
+        return accent(node, size, script);
+      case MathNode::Kind::overline:
+        return overline(node, size, script);
+      case MathNode::Kind::space:
+        break;
+    }
+    Line line;
+    line.box.width = node.space * size;
+    return line;
+  }
+
+ private:
+  Fonts& fonts_;
+  bool bold_;
+
+  Face face(bool italic, bool bold) const {
+    bold = bold || bold_;
+    return italic ? (bold ? Face::bold_italic : Face::italic) : (bold ? Face::bold : Face::regular);
+  }
+
+  /// Height above the baseline at which fraction bars and minus signs stand, em.
+  double axis() {
+    const auto& box = fonts_.metrics(Face::regular, fonts_.glyph(Face::regular, 0x2212)).box;
+    return -(box.top + box.bottom) / 2;
+  }
+  double x_height() { return -fonts_.metrics(Face::regular, fonts_.glyph(Face::regular, 'x')).box.top; }
+
+  void add_glyph(Line& line, GlyphRun& run, std::uint32_t id, double x, const std::string& text,
+                 double size) {
+    const auto& m = fonts_.metrics(run.face, id);
+    run.glyphs.push_back({id, {x, 0}, static_cast<int>(text.size())});
+    run.text += text;
+    if (m.box.right > m.box.left)
+      line.box.ink.include(
+          Rect{x + size * m.box.left, size * m.box.top, x + size * m.box.right, size * m.box.bottom});
+    line.extend(-size * m.box.top, size * m.box.bottom);
+    line.italic_correction = std::max(0.0, size * (m.box.right - m.advance));
+  }
+
+  Line characters(const MathNode& node, double size) {
+    Line line;
+    GlyphRun run{face(node.italic, node.bold), size, {}, 0, {}, {}, {}};
+    if (node.shaped) {
+      std::string text;
+      for (char32_t c : node.characters) text += encode_utf8(c);
+      double advance = 0;
+      const auto shaped = fonts_.shape(run.face, text, advance);
+      for (std::size_t i = 0; i < shaped.size(); ++i) {
+        const auto end = i + 1 < shaped.size() ? shaped[i + 1].byte : text.size();
+        add_glyph(line, run, shaped[i].glyph, size * shaped[i].x,
+                  text.substr(shaped[i].byte, end - shaped[i].byte), size);
+      }
+      line.box.width = size * advance;
+    } else {
+      for (char32_t c : node.characters) {
+        const auto id = fonts_.glyph(run.face, c);
+        add_glyph(line, run, id, line.box.width, encode_utf8(c), size);
+        line.box.width += size * fonts_.metrics(run.face, id).advance;
+      }
+    }
+    line.last_italic = node.italic;
+    line.box.runs.push_back(std::move(run));
+    return line;
+  }
+
+  Line row(const MathNode& node, double size, bool script) {
+    Line line;
+    const MathNode* last = nullptr;
+    Atom last_atom = Atom::opening;
+    bool last_italic = false;
+    double lean = 0;
+    for (std::size_t i = 0; i < node.inside.size(); ++i) {
+      const MathNode& member = node.inside[i];
+      Atom atom = member.atom;
+      // a sign that has nothing on its left, or nothing on its right, is no operation between two things
+      if (atom == Atom::binary && (!last || last_atom == Atom::binary || last_atom == Atom::operation ||
+                                   last_atom == Atom::relation || last_atom == Atom::opening ||
+                                   last_atom == Atom::punctuation || i + 1 == node.inside.size()))
+        atom = Atom::ordinary;
+      Line inside = set(member, size, script);
+      if (last && last->kind != MathNode::Kind::space && member.kind != MathNode::Kind::space &&
+          !is_words(*last) && !is_words(member))
+        line.box.width += space_between(last_atom, atom, script) * size / 18;
+      if (last && last_italic && !inside.last_italic) line.box.width += lean;  // an f before a bracket
+      line.put(inside.box, line.box.width, 0);
+      line.box.width += inside.box.width;
+      lean = inside.italic_correction, last_italic = inside.last_italic;
+      last = &member, last_atom = atom;
+    }
+    line.italic_correction = lean, line.last_italic = last_italic;
+    return line;
+  }
+  /// Running text and whole formulas side by side bring their own spaces.
+  static bool is_words(const MathNode& node) { return node.shaped && node.atom == Atom::inner; }
+
+  Line scripts(const MathNode& node, double size) {
+    const MathNode &nucleus = node.inside[0], &sub = node.inside[1], &super = node.inside[2];
+    Line line = set(nucleus, size, false);
+    const double small = script_size(size);
+    const bool letter = nucleus.kind == MathNode::Kind::characters;
+    const double start = line.box.width;
+    double end = start, up = 0;
+    const bool prime = super.inside.size() == 1 && super.inside[0].characters == U"\u2032";
+    if (prime) {  // the font draws it small and raised already
+      const Line above = set(super, size, true);
+      line.put(above.box, start + line.italic_correction, 0);
+      end = start + line.italic_correction + above.box.width;
+      up = 0.4 * size;
+    } else if (!super.inside.empty()) {
+      const Line above = set(super, small, true);
+      up = std::max({0.36 * size, letter ? 0 : line.box.ascent - 0.45 * small,
+                     above.box.descent + 0.25 * x_height() * size});
+      line.put(above.box, start + line.italic_correction, -up);
+      end = std::max(end, start + line.italic_correction + above.box.width);
+      up -= above.box.descent;  // its lower edge
+    }
+    if (!sub.inside.empty()) {
+      const Line below = set(sub, small, true);
+      double down =
+          std::max({(super.inside.empty() ? 0.16 : 0.22) * size, letter ? 0 : line.box.descent + 0.05 * small,
+                    below.box.ascent - 0.8 * x_height() * size});
+      if (!super.inside.empty())
+        down = std::max(down, below.box.ascent - up + 4 * rule_thickness * size);  // a gap between the two
+      line.put(below.box, start, down);
+      end = std::max(end, start + below.box.width);
+    }
+    line.box.width = end + 0.05 * size;
+    line.italic_correction = 0, line.last_italic = false;
+    return line;
+  }
+
+  Line fraction(const MathNode& node, double size) {
+    const double small = node.full_size ? size : script_size(size);
+    const Line above = set(node.inside[0], small, !node.full_size),
+               below = set(node.inside[1], small, !node.full_size);
+    Line line;
+    const double side = 0.08 * size, thick = std::max(0.4, rule_thickness * size), gap = 0.13 * size;
+    const double inner = std::max(above.box.width, below.box.width) + 0.1 * size, middle = axis() * size;
+    line.put(above.box, side + (inner - above.box.width) / 2,
+             -(middle + thick / 2 + gap + above.box.descent));
+    line.put(below.box, side + (inner - below.box.width) / 2, -(middle - thick / 2 - gap - below.box.ascent));
+    line.rule({side, -middle - thick / 2, side + inner, -middle + thick / 2});
+    line.box.width = inner + 2 * side;
+    return line;
+  }
+
+  Line root(const MathNode& node, double size, bool script) {
+    const Line inside = set(node.inside[0], size, script);
+    const auto id = fonts_.glyph(Face::regular, 0x221a);
+    const auto& sign = fonts_.metrics(Face::regular, id);
+    const double thick = std::max(0.4, rule_thickness * size), gap = 0.1 * size;
+    const double bottom = std::max(inside.box.descent, 0.15 * size);
+    const double top = std::max(inside.box.ascent, x_height() * size) + gap + thick;
+    // the sign as a larger or smaller letter
+    const double scale = std::max(smallest_type, (top + bottom) / sign.box.height());
+    Line line;
+    TextBox glyph;
+    glyph.runs.push_back({Face::regular, scale, {}, 0, {{id, {0, 0}, 3}}, "\u221a", {}});
+    glyph.ink = {scale * sign.box.left, scale * sign.box.top, scale * sign.box.right,
+                 scale * sign.box.bottom};
+    glyph.ascent = -glyph.ink.top, glyph.descent = glyph.ink.bottom;
+    line.put(glyph, 0, -top - glyph.ink.top);
+    const double start = glyph.ink.right;
+    line.put(inside.box, start, 0);
+    line.box.width = start + inside.box.width + inside.italic_correction + 0.06 * size;
+    line.rule({start - 0.02 * size, -top, line.box.width, -top + thick});
+    line.box.width += 0.06 * size;
+    return line;
+  }
+
+  Line accent(const MathNode& node, double size, bool script) {
+    Line line = set(node.inside[0], size, script);
+    const auto id = fonts_.glyph(Face::regular, node.accent);
+    const auto& m = fonts_.metrics(Face::regular, id);
+    const Rect ink = line.box.ink;
+    if (ink.left > ink.right) return line;
+    const double height = -ink.top;
+    const double lean = line.last_italic ? slant * (height / 2 + 0.05 * size) : 0;
+    const double x = (ink.left + ink.right) / 2 + lean - size * (m.box.left + m.box.right) / 2;
+    // every accent is drawn for the height of an x in its font; some stand a little high there, some low
+    const double y = -(height + 0.09 * size) - size * m.box.bottom;
+    TextBox mark;
+    const bool bar = node.accent == 0xaf;
+    const std::string text = encode_utf8(bar ? 0x304 : node.accent);
+    mark.runs.push_back(
+        {Face::regular, size, {}, 0, {{id, {0, 0}, static_cast<int>(text.size())}}, text, {}});
+    mark.ink = {size * m.box.left, size * m.box.top, size * m.box.right, size * m.box.bottom};
+    mark.ascent = -mark.ink.top;
+    const double correction = line.italic_correction;
+    const bool italic = line.last_italic;
+    line.put(mark, x, y);
+    line.italic_correction = correction, line.last_italic = italic;
+    return line;
+  }
+
+  Line overline(const MathNode& node, double size, bool script) {
+    Line line = set(node.inside[0], size, script);
+    const double thick = std::max(0.4, rule_thickness * size);
+    const double y = -line.box.ascent - 0.1 * size;
+    line.rule({0.03 * size, y - thick, line.box.width + line.italic_correction, y});
+    return line;
+  }
+};
+
+}  // namespace
+
+Rect TextBox::box_at(Point at, int quarter_turns) const {
+  if (quarter_turns == 1) return {at.x - ascent, at.y - width, at.x + descent, at.y};
+  return {at.x, at.y - ascent, at.x + width, at.y + descent};
+}
+
+TextBox set_text(std::string_view source, double size, bool bold) {
+  const MathNode tree = parse_text(source);
+  Line line;
+  try {
+    line = Setter(bold).set(tree, size, false);
+  } catch (const InputError& error) {
+    throw InputError("text \"" + std::string(source) + "\": " + error.what());
+  }
+  line.box.width += line.italic_correction;
+  line.box.size = size;
+  return std::move(line.box);
+}
+
+void draw_text(DisplayList& list, const TextBox& text, Point at, Color color, double angle) {
+  for (GlyphRun run : text.runs) {
+    run.origin = at, run.angle = angle, run.color = color;
+    list.items.emplace_back(std::move(run));
+  }
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto turned = [&](double x, double y) { return Point{at.x + c * x + s * y, at.y - s * x + c * y}; };
+  for (const auto& r : text.rules) {
+    Path path;
+    path.move(turned(r.left, r.top)).line(turned(r.right, r.top));
+    path.line(turned(r.right, r.bottom)).line(turned(r.left, r.bottom)).close();
+    list.fill(std::move(path), color);
+  }
+}
+
+}  // namespace chute::plot

@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "plot/figure.hpp"
+#include "plot/geometry.hpp"
+
+namespace chute::plot {
+
+/// Where a frame already holds ink, as cells of 2 points: what legends, labels and insets look for room on.
+class Occupancy {
+ public:
+  explicit Occupancy(const Rect& frame);
+
+  void mark(const Rect& rect);
+  void mark_segment(Point a, Point b, double width);
+  /// Share of the cells under `rect` that hold ink, 0 to 1; 1 if it leaves the frame.
+  double covered(const Rect& rect) const;
+  bool free(const Rect& rect) const { return covered(rect) == 0; }
+
+  /// Upper left corner for a block of this size, `inset` away from the frame, that covers nothing and sits as
+  /// near to a corner as can be (`wanted`: at that corner or nowhere else). Nothing if there is no room.
+  std::optional<Point> room_for(double width, double height, double inset, Place wanted) const;
+  /// The corner place itself, taken or not.
+  Point corner(double width, double height, double inset, Place place) const;
+
+ private:
+  Rect frame_;
+  int columns_, rows_;
+  std::vector<int> cells_;           // 1: ink
+  mutable std::vector<int> summed_;  // of the cells above and to the left; empty: to be made
+
+  static constexpr double cell = 2;
+};
+
+}  // namespace chute::plot

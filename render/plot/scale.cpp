@@ -1,0 +1,250 @@
+#include "plot/scale.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+
+namespace chute::plot {
+
+double Span::fraction(double value) const {
+  if (scale == Scale::linear) return (value - low) / (high - low);
+  if (!(value > 0)) return unknown;
+  return std::log(value / low) / std::log(high / low);
+}
+
+void Extent::include(double value, Scale scale) {
+  if (!std::isfinite(value) || (scale == Scale::log && value <= 0)) return;
+  low = std::min(low, value), high = std::max(high, value);
+}
+
+namespace {
+
+constexpr double room = 0.045;  // of the range, beside the outermost markers
+
+Span padded_linear(const Axis& axis, Extent e) {
+  if (e.low > e.high) e.low = 0, e.high = 1;
+  const double low_edge = axis.min.value_or(e.from_zero ? std::min(0.0, e.low) : e.low);
+  const double high_edge = axis.max.value_or(e.from_zero ? std::max(0.0, e.high) : e.high);
+  Span span{low_edge, high_edge, Scale::linear};
+  double range = high_edge - low_edge;
+  const double size = std::max(std::abs(low_edge), std::abs(high_edge));
+  const double least = size > 0 ? 1e-9 * size : 1e-300;  // labels of 10 digits are the most that can be read
+  if (range < least || size == 0) {
+    const double wider = size > 0 ? 0.1 * size : 0.5;
+    if (!axis.min) span.low -= wider;
+    if (!axis.max) span.high += wider;
+    return span;
+  }
+  if (!axis.max && e.pad_high && !(e.from_zero && high_edge == 0)) span.high += room * range;
+  if (axis.min || (e.from_zero && low_edge == 0)) return span;
+  // near zero start at zero, unless markers sit right there
+  if (low_edge > 0 && low_edge < 0.2 * high_edge && low_edge > (e.pad_low ? room * range : 0))
+    span.low = 0;
+  else if (e.pad_low)
+    span.low -= room * range;
+  return span;
+}
+
+Span padded_log(const Axis& axis, Extent e) {
+  if (e.low > e.high) e.low = axis.max ? *axis.max / 100 : axis.min.value_or(0.1), e.high = 100 * e.low;
+  Span span{axis.min.value_or(e.low), axis.max.value_or(e.high), Scale::log};
+  if (span.high / span.low < 1 + 1e-9) {
+    if (!axis.min) span.low /= 3;
+    if (!axis.max) span.high *= 3;
+    return span;
+  }
+  const double factor = std::pow(span.high / span.low, room);
+  if (!axis.min && e.pad_low) span.low /= factor;
+  if (!axis.max && e.pad_high) span.high *= factor;
+  return span;
+}
+
+double power_of_ten(int n) { return std::pow(10.0, n); }
+int decade_of(double value) {
+  int n = static_cast<int>(std::floor(std::log10(value)));
+  if (power_of_ten(n + 1) <= value * (1 + 1e-12)) ++n;
+  return n;
+}
+
+/// Labels of numbers whose last digit counts 10^`last`: all with the same decimals, large and tiny ones over
+/// a factor.
+struct Labels {
+  std::vector<std::string> texts;
+  std::string factor;
+};
+Labels label(const std::vector<double>& values, int last) {
+  double largest = 0;
+  for (double v : values) largest = std::max(largest, std::abs(v));
+  int shift = 0;
+  if (largest > 0 && (largest >= 99999.5 || largest < 1e-3 || (last < -4 && largest < 1)))
+    shift = decade_of(largest);
+  const int decimals = std::max(0, shift - last);
+  Labels labels;
+  for (double v : values) {
+    const double scaled = v / power_of_ten(shift);
+    auto text = fmt::format("{:.{}f}", scaled, decimals);
+    if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-')
+      text.erase(0, 1);  // no minus zero
+    labels.texts.push_back("$" + text + "$");
+  }
+  if (shift != 0) labels.factor = fmt::format("$\\times10^{{{}}}$", shift);
+  return labels;
+}
+
+class Ruler {
+ public:
+  Ruler(const Span& span, double length, double size, bool horizontal)
+      : span_(span), length_(length), size_(size), horizontal_(horizontal) {}
+
+  Ticks ticks() const { return span_.scale == Scale::linear ? linear(true) : logarithmic(); }
+
+ private:
+  Span span_;
+  double length_, size_;
+  bool horizontal_;
+
+  bool fits(const std::vector<Tick>& major, double gap) const {
+    double edge = -1e300;
+    for (const auto& tick : major) {
+      const auto text = set_text(tick.label, size_);
+      const double half = (horizontal_ ? text.width : text.ascent + text.descent) / 2;
+      const double at = span_.fraction(tick.value) * length_;
+      if (at - half < edge + gap) return false;
+      edge = at + half;
+    }
+    return true;
+  }
+  double wide_gap() const { return (horizontal_ ? 1.3 : 1.3) * size_; }
+  double narrow_gap() const { return (horizontal_ ? 0.6 : 0.45) * size_; }
+
+  Ticks with_step(double mantissa, int exponent) const {
+    const double step = mantissa * power_of_ten(exponent);
+    Ticks ticks;
+    std::vector<double> values;
+    const double first = std::ceil(span_.low / step - 1e-7), last = std::floor(span_.high / step + 1e-7);
+    if (last - first > 200) return ticks;
+    for (double i = first; i <= last; ++i) {
+      // through the decimal form: 3 * 0.1 must be 0.3
+      const double value = exponent < 0 ? i * mantissa / power_of_ten(-exponent) : i * step;
+      if (span_.scale == Scale::log && value <= 0) continue;
+      values.push_back(value);
+    }
+    const auto labels = label(values, exponent);
+    for (std::size_t i = 0; i < values.size(); ++i) ticks.major.push_back({values[i], labels.texts[i]});
+    ticks.factor = labels.factor;
+    add_minor(ticks, step / (mantissa == 2 ? 4 : 5));
+    return ticks;
+  }
+
+  void add_minor(Ticks& ticks, double step) const {
+    if ((span_.high - span_.low) / step > length_ / 3) return;
+    for (double i = std::ceil(span_.low / step - 1e-7); i <= std::floor(span_.high / step + 1e-7); ++i) {
+      const double value = i * step;
+      const bool taken = std::any_of(ticks.major.begin(), ticks.major.end(),
+                                     [&](const Tick& t) { return std::abs(t.value - value) < 0.01 * step; });
+      if (!taken && !(span_.scale == Scale::log && value <= 0)) ticks.minor.push_back(value);
+    }
+  }
+
+  /// The finest step whose labels fit well; a finer one that just fits where that gives fewer than three
+  /// labels.
+  Ticks linear(bool wanted) const {
+    const double range = span_.high - span_.low;
+    const int top = decade_of(range) + 1;
+    Ticks tight, few;
+    for (int exponent = top - 4; exponent <= top; ++exponent)
+      for (int mantissa : {1, 2, 5}) {
+        const auto ticks = with_step(mantissa, exponent);
+        if (ticks.major.empty()) continue;
+        if (tight.major.empty() && fits(ticks.major, narrow_gap())) tight = ticks;
+        if (!fits(ticks.major, wide_gap())) continue;
+        if (ticks.major.size() >= 3 || !wanted) return ticks;
+        if (few.major.empty()) few = ticks;
+      }
+    return tight.major.size() > few.major.size() ? tight : few;
+  }
+
+  Ticks logarithmic() const {
+    const int first = static_cast<int>(std::ceil(std::log10(span_.low) - 1e-9));
+    const int last = static_cast<int>(std::floor(std::log10(span_.high) + 1e-9));
+    if (last - first >= 2 || (last - first == 1 && length_ < 12 * size_)) return decades(first, last);
+    if (span_.high / span_.low > 3) {
+      auto ticks = one_two_five();
+      if (ticks.major.size() >= 3 && fits(ticks.major, narrow_gap())) return ticks;
+      if (last - first == 1) return decades(first, last);
+    }
+    return linear(true);
+  }
+
+  Ticks decades(int first, int last) const {
+    Ticks ticks;
+    for (int stride = 1;; ++stride) {
+      ticks.major.clear();
+      for (int n = first; n <= last; ++n)
+        if (n % stride == 0) ticks.major.push_back({power_of_ten(n), fmt::format("$10^{{{}}}$", n)});
+      if (fits(ticks.major, horizontal_ ? 0.8 * size_ : 0.7 * size_) || ticks.major.size() <= 1) {
+        const double decade = length_ / std::log10(span_.high / span_.low);
+        for (int n = first - 1; n <= last; ++n) {
+          if (stride > 1 && n >= first && n % stride != 0) ticks.minor.push_back(power_of_ten(n));
+          if (stride > 1 || decade < 4 * size_ / 3) continue;
+          for (int digit = 2; digit <= 9; ++digit) {
+            const double value = digit * power_of_ten(n);
+            if (value >= span_.low && value <= span_.high) ticks.minor.push_back(value);
+          }
+        }
+        return ticks;
+      }
+    }
+  }
+
+  Ticks one_two_five() const {
+    Ticks ticks;
+    std::vector<double> values;
+    const int lowest = decade_of(span_.low), highest = decade_of(span_.high);
+    int finest = highest;
+    for (int n = lowest; n <= highest; ++n)
+      for (int digit = 1; digit <= 9; ++digit) {
+        const double value = digit * power_of_ten(n);
+        if (value < span_.low * (1 - 1e-9) || value > span_.high * (1 + 1e-9)) continue;
+        if (digit == 1 || digit == 2 || digit == 5)
+          values.push_back(value), finest = std::min(finest, n);
+        else
+          ticks.minor.push_back(value);
+      }
+    const auto labels = label(values, finest);
+    for (std::size_t i = 0; i < values.size(); ++i) ticks.major.push_back({values[i], labels.texts[i]});
+    ticks.factor = labels.factor;
+    return ticks;
+  }
+};
+
+}  // namespace
+
+Span span_of(const Axis& axis, const Extent& extent) {
+  const auto wrong = [&](const std::string& what) {
+    throw InputError(fmt::format("axis \"{}\": {}", axis.label, what));
+  };
+  for (const auto& limit : {axis.min, axis.max}) {
+    if (!limit) continue;
+    if (!std::isfinite(*limit)) wrong("its limits must be finite");
+    if (axis.scale == Scale::log && *limit <= 0)
+      wrong(fmt::format("{} is no limit of a log axis, must be > 0", *limit));
+  }
+  if (axis.min && axis.max && !(*axis.min < *axis.max))
+    wrong(fmt::format("min {} must be below max {}", *axis.min, *axis.max));
+  Extent data = extent;
+  // data that lie wholly beyond the one given limit leave the other to choose
+  if (axis.min && data.high <= *axis.min)
+    data.high = axis.scale == Scale::log ? *axis.min * 10 : *axis.min + 1;
+  if (axis.max && data.low >= *axis.max) data.low = axis.scale == Scale::log ? *axis.max / 10 : *axis.max - 1;
+  return axis.scale == Scale::linear ? padded_linear(axis, data) : padded_log(axis, data);
+}
+
+Ticks ticks_for(const Span& span, double length, double size, bool horizontal) {
+  return Ruler(span, length, size, horizontal).ticks();
+}
+
+}  // namespace chute::plot

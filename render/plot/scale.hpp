@@ -1,0 +1,48 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "plot/figure.hpp"
+#include "plot/mathtext.hpp"
+
+/// Axes as numbers: ranges, ticks and their labels.
+namespace chute::plot {
+
+/// Range of an axis, ready to map: low < high, both > 0 on a log axis.
+struct Span {
+  double low = 0, high = 1;
+  Scale scale = Scale::linear;
+
+  /// 0 at low, 1 at high; NaN for what a log axis cannot show.
+  double fraction(double value) const;
+};
+
+/// What the data of an axis ask for.
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+  bool from_zero = false;                  ///< a histogram: bars stand on zero
+  bool pad_low = false, pad_high = false;  ///< markers there need room; lines may touch the frame
+
+  void include(double value, Scale scale);
+};
+
+/// The given limits; the data's with a little room where none are given. InputError `axis: …` if the limits
+/// are the wrong way round or a log axis is asked to show numbers <= 0.
+Span span_of(const Axis& axis, const Extent& extent);
+
+struct Tick {
+  double value = 0;
+  std::string label;  ///< text for mathtext; empty for a minor tick
+};
+
+struct Ticks {
+  std::vector<Tick> major;
+  std::vector<double> minor;
+  std::string factor;  ///< "$\\times10^{-3}$" where the labels are to be multiplied by it, else empty
+};
+
+/// Ticks for an axis `length` points long. Labels (set at `size` points) neither touch nor crowd: along x
+/// their widths count, along y their heights. One axis, one number of decimals.
+Ticks ticks_for(const Span& span, double length, double size, bool horizontal);
+
+}  // namespace chute::plot

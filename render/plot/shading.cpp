@@ -1,0 +1,129 @@
+#include "plot/shading.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "common/toml_reader.hpp"
+#include "plot/mathtext.hpp"
+#include "plot/polyline.hpp"
+
+namespace chute::plot {
+namespace {
+
+/// A series as a curve on the page: sorted by x, gaps left out.
+std::vector<Point> curve(const Frame& frame, const Plot& plot, const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& s : plot.series) {
+    known.push_back(s.name);
+    if (s.name != name) continue;
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      const Point p = frame.at(s.x[i], s.y[i]);
+      if (std::isfinite(p.x) && std::isfinite(p.y)) points.push_back(p);
+    }
+    std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
+    if (points.size() < 2)
+      throw InputError(fmt::format("region: series \"{}\" has fewer than two points", name));
+    return points;
+  }
+  const auto hint = nearest(name, known);
+  throw InputError(fmt::format("region: no series \"{}\" in this panel{}", name,
+                               hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint)));
+}
+
+double height_at(const std::vector<Point>& curve, double x) {
+  const auto right =
+      std::lower_bound(curve.begin(), curve.end(), x, [](Point p, double v) { return p.x < v; });
+  if (right == curve.begin()) return curve.front().y;
+  if (right == curve.end()) return curve.back().y;
+  const auto left = right - 1;
+  const double t = right->x > left->x ? (x - left->x) / (right->x - left->x) : 0;
+  return left->y + t * (right->y - left->y);
+}
+
+}  // namespace
+
+void draw_region(Painter& painter, const Frame& frame, const Plot& plot, const Region& region) {
+  const Rect& r = frame.rect;
+  std::vector<Point> under, over;
+  if (!region.above.empty()) under = curve(frame, plot, region.above);
+  if (!region.below.empty()) over = curve(frame, plot, region.below);
+  const double floor = region.y_min ? frame.at(frame.x.low, *region.y_min).y : r.bottom;
+  const double ceiling = region.y_max ? frame.at(frame.x.low, *region.y_max).y : r.top;
+  double left = region.x_min ? frame.at(*region.x_min, frame.y.low).x : r.left;
+  double right = region.x_max ? frame.at(*region.x_max, frame.y.low).x : r.right;
+  for (const auto* bound : {&under, &over})
+    if (!bound->empty()) left = std::max(left, bound->front().x), right = std::min(right, bound->back().x);
+  if (!(left < right)) return;
+  std::vector<double> stops{left, right};
+  for (const auto* bound : {&under, &over})
+    for (Point p : *bound)
+      if (p.x > left && p.x < right) stops.push_back(p.x);
+  std::sort(stops.begin(), stops.end());
+  std::vector<Point> ring;
+  for (double x : stops) ring.push_back({x, under.empty() ? floor : height_at(under, x)});
+  for (auto x = stops.rbegin(); x != stops.rend(); ++x)
+    ring.push_back({*x, over.empty() ? ceiling : height_at(over, *x)});
+  const auto& shades = painter.look.shades;
+  painter.list.fill(polygon_inside(ring, r), shades[static_cast<std::size_t>(region.shade) % shades.size()]);
+}
+
+void draw_reference(Painter& painter, const Frame& frame, const Reference& reference) {
+  std::vector<Point> points;
+  if (reference.kind == Reference::Kind::horizontal) {
+    points = {frame.at(frame.x.low, reference.at), frame.at(frame.x.high, reference.at)};
+  } else if (reference.kind == Reference::Kind::vertical) {
+    points = {frame.at(reference.at, frame.y.low), frame.at(reference.at, frame.y.high)};
+  } else {
+    constexpr int steps = 200;  // straight on linear axes; a curve if one of them is logarithmic
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      const double x = frame.x.scale == Scale::linear ? frame.x.low + t * (frame.x.high - frame.x.low)
+                                                      : frame.x.low * std::pow(frame.x.high / frame.x.low, t);
+      points.push_back(frame.at(x, x + reference.at));
+    }
+    if (frame.x.scale == Scale::linear && frame.y.scale == Scale::linear)
+      points = {points.front(), points.back()};
+  }
+  Path path;
+  add_polyline(path, points, frame.rect);
+  if (path.empty()) return;
+  const double width = 1.4 * painter.look.hairline;
+  painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.quiet);
+  mark_polyline(painter.occupied, points, frame.rect, width);
+  if (reference.label.empty()) return;
+  // along the line, above the right end of its last stretch inside the frame
+  Point a, b;
+  bool inside = false;
+  for (std::size_t i = points.size() - 1; i > 0 && !inside; --i) {
+    a = points[i - 1], b = points[i];
+    inside = std::isfinite(a.x + a.y + b.x + b.y) && cut_segment(a, b, frame.rect);
+  }
+  if (!inside) return;
+  const auto text = set_text(reference.label, painter.look.legend_size);
+  const double angle = std::atan2(a.y - b.y, b.x - a.x), gap = 3 + text.descent;
+  const Point along{std::cos(angle), -std::sin(angle)}, up{-std::sin(angle), -std::cos(angle)};
+  const Point at = b - (text.width + 8) * along + gap * up;
+  draw_text(painter.list, text, at, painter.look.ink, angle);
+  Rect box = Rect::nothing();
+  for (double s : {0.0, text.width})
+    for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
+  painter.occupied.mark(box);
+}
+
+void draw_note(Painter& painter, const Frame& frame, const Note& note) {
+  const auto text = set_text(note.text, painter.look.legend_size);
+  const Point middle = note.fraction ? Point{frame.rect.left + note.x * frame.rect.width(),
+                                             frame.rect.bottom - note.y * frame.rect.height()}
+                                     : frame.at(note.x, note.y);
+  if (!frame.rect.contains(middle))
+    throw InputError(fmt::format("note \"{}\" lies outside its panel", note.text));
+  const Point at{middle.x - text.width / 2, middle.y + (text.ascent - text.descent) / 2};
+  draw_text(painter.list, text, at, painter.look.ink);
+  painter.occupied.mark(text.box_at(at));
+}
+
+}  // namespace chute::plot

@@ -1,0 +1,11 @@
+#pragma once
+#include "plot/marks.hpp"
+
+/// What a panel holds besides series: shaded regions, reference lines, notes.
+namespace chute::plot {
+
+void draw_region(Painter& painter, const Frame& frame, const Plot& plot, const Region& region);
+void draw_reference(Painter& painter, const Frame& frame, const Reference& reference);
+void draw_note(Painter& painter, const Frame& frame, const Note& note);
+
+}  // namespace chute::plot

@@ -1,0 +1,43 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "plot/display_list.hpp"
+#include "plot/figure.hpp"
+
+/// How figures look: sizes in points, inks, and the orders in which series take them.
+namespace chute::plot {
+
+struct Look {
+  double label_size = 10, tick_size = 9, legend_size = 9, panel_size = 10;
+  double hairline = 0.5;                    ///< frame, ticks, error bars
+  double line_width = 1.1;                  ///< of curves
+  double marker_size = 4.6;                 ///< diameter of the round one; the others have its area
+  double dot_radius = 0.55;                 ///< of scatter plots
+  double major_tick = 4, minor_tick = 2.2;  ///< lengths
+  double cap = 3;                           ///< width of an error bar's ends
+  double margin = 2;                        ///< around everything
+  Color ink, paper, quiet;                  ///< text and frames; ground; reference lines
+  std::vector<Color> colors, shades;        ///< series; regions
+};
+
+const Look& look_of(Style style);
+
+/// Wong's (Nature Methods 8, 441) eight, as Okabe and Ito chose them, the yellow darkened so that it shows on
+/// white; told apart with any colour blindness. In every style a series also differs from its neighbours by
+/// marker and dash.
+inline constexpr int color_count = 8;
+
+inline constexpr int marker_count = 10;
+struct MarkerShape {
+  Path path;
+  enum class Paint { filled, hollow, strokes } paint = Paint::filled;
+};
+/// Shape `index` (any number, counted round) about the origin for a circle of the given diameter.
+MarkerShape marker_shape(int index, double size);
+
+/// Dash pattern `index` in multiples of the line's width; 0 is solid.
+std::vector<double> dash_pattern(int index, double line_width);
+inline constexpr int dash_count = 6;
+
+}  // namespace chute::plot

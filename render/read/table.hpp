@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chute::read {
+
+/// A CSV file: comment lines, one header line, rows of cells as text.
+struct Table {
+  std::filesystem::path file;
+  std::vector<std::string> comments;           ///< without the `#` and the blanks after it
+  std::vector<std::string> header;             ///< column names
+  std::vector<std::vector<std::string>> rows;  ///< each as long as `header`
+  std::vector<std::size_t> lines;              ///< of each row in the file, from 1
+
+  bool has(std::string_view name) const;
+  /// A column as numbers; an empty cell is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column or a
+  /// cell that is no number.
+  std::vector<double> column(std::string_view name) const;
+  /// A column as it stands.
+  std::vector<std::string> text(std::string_view name) const;
+  /// Index of a column; InputError if there is none of that name.
+  std::size_t index(std::string_view name) const;
+};
+
+/// Reads comma-separated values. Lines that start with `#` are comments, the first other line is the header; empty lines
+/// are skipped, cells may stand in double quotes, with a quote in them doubled. InputError `FILE:LINE: …` for a row
+/// with more or fewer cells than the header, a quote that does not end, a column named twice; `FILE: …` if there is no
+/// header.
+Table read_table(const std::filesystem::path& path);
+
+/// The same from text; `name` stands for the file in messages.
+Table parse_table(std::string_view text, const std::filesystem::path& name);
+
+}  // namespace chute::read

@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <cmath>
+
+#include "common/fields.hpp"
+#include "view/flat_scene.hpp"
+#include "view/offscreen.hpp"
+#include "view/painter.hpp"
+
+namespace chute::view {
+namespace {
+
+using plot::Point;
+using plot::Rect;
+
+constexpr double copy_reach = 0.16;  // how far copies go beyond the periodic ends, in periods
+constexpr double copy_alpha = 0.5;
+
+/// From the files' plane to pixels: turned if the picture is tilted, then scaled.
+struct Map {
+  double cosine = 1, sine = 0, u0 = 0, v0 = 0, scale = 1;
+  Rect rect;
+
+  Point turned(double x, double y) const { return {cosine * x + sine * y, cosine * y - sine * x}; }
+  Point operator()(double x, double y) const {
+    const Point t = turned(x, y);
+    return {rect.left + scale * (t.x - u0), rect.bottom - scale * (t.y - v0)};
+  }
+  Point direction(double x, double y) const { return {cosine * x + sine * y, sine * x - cosine * y}; }
+};
+
+class FlatPainter : public Painter {
+ public:
+  FlatPainter(const Studio& studio, std::unique_ptr<Furniture>& furniture)
+      : studio_(studio),
+        context_(studio.style.width, studio.style.height),
+        scene_(context_, studio.style.width, studio.style.height, studio.palette.ground, studio.palette.ground_alpha) {
+    const auto& survey = studio_.survey;
+    const double turn = studio_.style.tilt ? survey.slope : 0;
+    map_.cosine = std::cos(turn), map_.sine = std::sin(turn);
+    const auto window = seen();
+    const double width = window[1] - window[0], height = window[3] - window[2];
+    furniture = std::make_unique<Furniture>(studio_.style, survey, studio_.map, width / height);
+    map_.rect = furniture->layout().scene;
+    map_.scale = map_.rect.width() / width;
+    map_.u0 = window[0], map_.v0 = window[2];
+    // arrows may reach a little beyond what was fitted
+    scene_.clip(studio_.style.camera.window ? map_.rect : map_.rect.grown(1.3 * furniture->layout().em));
+    Directions directions;
+    const auto& g = survey.gravity;
+    if (const double strength = std::hypot(g[0], g[1]); strength > 0)
+      directions.gravity = map_.direction(g[0] / strength, g[1] / strength);
+    directions.normal = map_.direction(0, -1);
+    furniture->stand(furniture->flat_scale(map_.scale), directions, studio_.arrow_length() * map_.scale);
+  }
+
+  void paint(const FrameData& data, image::Image& into) override {
+    scene_.clear();
+    const auto colors = studio_.colors(data.frame);
+    if (studio_.style.trail) add_trails(data, colors);
+    if (copies()) add_borders();
+    for (const bool bed : {true, false})
+      for (std::size_t i = 0; i < data.frame.size(); ++i)
+        if (studio_.is_bed(data.frame, i) == bed) add_grain(data.frame, i, colors[i]);
+    if (studio_.style.chains) add_chains(data.contacts);
+    if (studio_.style.arrows) add_arrows(data.frame);
+    scene_.draw(into);
+  }
+
+ private:
+  Studio studio_;
+  OffscreenContext context_;
+  FlatScene scene_;
+  Map map_;
+
+  double period() const { return studio_.survey.domain[1] - studio_.survey.domain[0]; }
+  bool copies() const { return studio_.style.copies && period() > 0; }
+
+  /// What the picture shows of the turned plane: u0 u1 v0 v1.
+  std::array<double, 4> seen() const {
+    const auto& survey = studio_.survey;
+    if (const auto& window = studio_.style.camera.window) {
+      std::array<double, 4> box{1e300, -1e300, 1e300, -1e300};
+      for (double x : {(*window)[0], (*window)[1]})
+        for (double y : {(*window)[2], (*window)[3]}) {
+          const Point p = map_.turned(x, y);
+          box = {std::min(box[0], p.x), std::max(box[1], p.x), std::min(box[2], p.y), std::max(box[3], p.y)};
+        }
+      return box;
+    }
+    auto box = survey.turned;
+    if (copies()) {
+      const Point reach = map_.turned(copy_reach * period(), 0);
+      box[0] -= std::abs(reach.x), box[1] += std::abs(reach.x);
+      box[2] -= std::abs(reach.y), box[3] += std::abs(reach.y);
+    }
+    return box;
+  }
+
+  void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
+    add_disc(frame, i, color, 0, 1);
+    if (!copies()) return;
+    for (const double shift : {-period(), period()}) {
+      const double x = frame.x[i] + shift;
+      const double beyond = std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
+      if (beyond < 1) add_disc(frame, i, color, shift, copy_alpha * std::min(1.0, 1.15 * (1 - beyond)));
+    }
+  }
+
+  void add_disc(const read::GrainFrame& frame, std::size_t i, Rgb color, double shift, double alpha) {
+    constexpr Rgb black{0, 0, 0}, white{1, 1, 1};
+    const bool bed = studio_.is_bed(frame, i);
+    Disc disc;
+    disc.centre = map_(frame.x[i] + shift, frame.y[i]);
+    disc.radius = frame.radius[i] * map_.scale;
+    disc.fill = color;
+    disc.edge = mix(disc.fill, black, bed ? 0.3 : 0.55);
+    disc.edge_width = std::clamp(0.055 * disc.radius, 0.45, 2.0);
+    disc.alpha = alpha;
+    const auto* angle = frame.find(fields::angle.name);
+    if (studio_.style.spin && !studio_.style.arrows && angle && angle->components == 1 && !bed && disc.radius > 3) {
+      const double turned = angle->at(i);
+      disc.mark = 0.6 * disc.radius * map_.direction(std::cos(turned), std::sin(turned));
+      disc.mark_radius = 0.13 * disc.radius;
+      disc.mark_color = brightness(disc.fill) > 0.45 ? mix(disc.fill, black, 0.5) : mix(disc.fill, white, 0.62);
+    }
+    scene_.add(disc);
+  }
+
+  /// Where the periodic ends are.
+  void add_borders() {
+    const auto& box = studio_.survey.bounds;
+    const double dash = 0.006 * studio_.style.width;
+    for (const double x : {studio_.survey.domain[0], studio_.survey.domain[1]}) {
+      const Point from = map_(x, box[2]), to = map_(x, box[3]), along = to - from;
+      const double length = std::hypot(along.x, along.y);
+      for (double at = 0; at + dash < length; at += 2 * dash)
+        scene_.add(Bar{from + (at / length) * along, from + ((at + dash) / length) * along, 1, 1,
+                       studio_.palette.quiet, 1, 1});
+    }
+  }
+
+  void add_trails(const FrameData& data, const std::vector<Rgb>& colors) {
+    const auto trail = trails(data);
+    for (std::size_t i = 0; i < trail.paths.size(); ++i) {
+      const auto& path = trail.paths[i];
+      const double width = std::max(1.0, 0.22 * data.frame.radius[i] * map_.scale);
+      const double steps = static_cast<double>(studio_.style.trail);
+      for (std::size_t k = 0; k + 1 < path.size(); ++k)
+        scene_.add(Bar{map_(path[k][0], path[k][1]), map_(path[k + 1][0], path[k + 1][1]), width, width, colors[i],
+                       0.75 * (1 - static_cast<double>(k) / steps), 0.75 * (1 - static_cast<double>(k + 1) / steps)});
+    }
+  }
+
+  void add_chains(const std::vector<read::Contact>& contacts) {
+    if (studio_.survey.force <= 0) return;
+    const double widest = 0.42 * studio_.survey.diameter * map_.scale, L = period();
+    for (const auto& contact : contacts) {
+      const double width = widest * std::min(1.3, contact.force / studio_.survey.force);
+      if (width < 0.25) continue;
+      const auto draw = [&](double shift) {
+        const auto& a = contact.from;
+        double dx = contact.to[0] - a[0];
+        if (L > 0) dx -= L * std::round(dx / L);  // a contact through the periodic ends
+        const Bar bar{map_(a[0] + shift, a[1]), map_(a[0] + shift + dx, contact.to[1]), width, width, studio_.palette.ink};
+        scene_.add(bar);
+        Disc joint;
+        joint.radius = width / 2, joint.fill = joint.edge = bar.color;
+        for (const Point& end : {bar.from, bar.to}) {
+          joint.centre = end;
+          if (width > 1) scene_.add(joint);
+        }
+        return a[0] + dx;
+      };
+      const double end = draw(0);
+      if (L > 0 && end < studio_.survey.domain[0]) draw(L);
+      if (L > 0 && end > studio_.survey.domain[1]) draw(-L);
+    }
+  }
+
+  void add_arrows(const read::GrainFrame& frame) {
+    const auto* velocity = frame.find(fields::velocity.name);
+    if (!velocity || velocity->components != 3) return;
+    const double unit = studio_.arrow_length() * map_.scale;
+    const double width = std::clamp(0.075 * studio_.survey.diameter * map_.scale, 1.0, 4.0);
+    for (const double casing : {1.0, 0.0})  // a thin light rim first, so that arrows show on dark discs
+      for (std::size_t i = 0; i < frame.size(); ++i) {
+        if (studio_.is_bed(frame, i)) continue;
+        const Point along = unit * map_.direction(velocity->at(i, 0), velocity->at(i, 1));
+        const double length = std::hypot(along.x, along.y);
+        if (length < 1.5 * width) continue;
+        const Point u = (1 / length) * along, from = map_(frame.x[i], frame.y[i]), to = from + along;
+        const double head = std::min(5 * width, 0.6 * length);
+        const Rgb color = casing > 0 ? studio_.palette.ground : studio_.palette.ink;
+        const double alpha = casing > 0 ? 0.55 : 1, rim = casing * std::max(0.8, 0.35 * width);
+        const Point neck = to - head * u;
+        scene_.add(Bar{from - rim * u, neck + 0.5 * u, width + 2 * rim, width + 2 * rim, color, alpha, alpha});
+        scene_.add(Bar{neck - rim * u, to + 2 * rim * u, 0.75 * head + 3 * rim, 0, color, alpha, alpha});
+      }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Painter> make_flat_painter(const Studio& studio, std::unique_ptr<Furniture>& furniture) {
+  return std::make_unique<FlatPainter>(studio, furniture);
+}
+
+}  // namespace chute::view

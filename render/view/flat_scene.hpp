@@ -1,0 +1,53 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "image/image.hpp"
+#include "plot/geometry.hpp"
+#include "view/color_map.hpp"
+
+namespace chute::view {
+
+class OffscreenContext;
+
+/// A disc in the picture; lengths and places in pixels, y down.
+struct Disc {
+  plot::Point centre;
+  double radius = 1;
+  Rgb fill, edge;
+  double alpha = 1;
+  double edge_width = 0;      ///< of the line inside the rim, 0: none
+  plot::Point mark;           ///< centre of the spin mark, from the disc's centre
+  double mark_radius = 0;     ///< 0: none
+  Rgb mark_color;
+};
+
+/// A straight line with square ends whose width may change evenly: a line, an arrow's head, a force.
+struct Bar {
+  plot::Point from, to;
+  double width_from = 1, width_to = 1;
+  Rgb color;
+  double alpha_from = 1, alpha_to = 1;
+};
+
+/// Discs and bars in a plane, each drawn over those before it. Their edges are exact: a shader works out how much of
+/// every pixel a shape covers, so nothing is sampled more than once.
+class FlatScene {
+ public:
+  /// Draws on `context`, `width` x `height` pixels.
+  FlatScene(OffscreenContext& context, int width, int height, Rgb ground, double ground_alpha);
+  ~FlatScene();
+
+  void clear();
+  void add(const Disc& disc);
+  void add(const Bar& bar);
+  /// Nothing shows outside; pixels.
+  void clip(const plot::Rect& rect);
+  void draw(image::Image& into);
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace chute::view

@@ -1,0 +1,273 @@
+#include "view/furniture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plot/draw.hpp"
+#include "plot/mathtext.hpp"
+#include "plot/scale.hpp"
+
+namespace chute::view {
+namespace {
+
+using plot::Color;
+using plot::DisplayList;
+using plot::Path;
+using plot::Point;
+using plot::Rect;
+
+constexpr double pixels = 72;  // dpi at which a point is a pixel
+constexpr double small = 0.88; // numbers on the bar, against the type's size
+
+DisplayList blank(double width, double height) {
+  DisplayList list;
+  list.width = width, list.height = height;
+  list.background = Color{1, 1, 1, 0};
+  return list;
+}
+
+Path polygon(std::initializer_list<Point> points) {
+  Path path;
+  for (const Point& p : points) path.verbs.empty() ? path.move(p) : path.line(p);
+  return path.close();
+}
+
+Path segment(Point a, Point b) { return Path().move(a).line(b); }
+
+/// A line that ends in a slender head.
+void draw_arrow(DisplayList& list, Point from, Point to, double width, double head, Color color) {
+  const Point along = to - from;
+  const double length = std::hypot(along.x, along.y);
+  if (length <= 0) return;
+  const Point u = (1 / length) * along, n{-u.y, u.x};
+  head = std::min(head, 0.6 * length);
+  const Point neck = to - head * u, bite = to - 0.8 * head * u;
+  list.stroke(segment(from, bite), {width, {}, plot::Cap::butt, plot::Join::miter, 4}, color);
+  list.fill(polygon({to, neck + (0.36 * head) * n, bite, neck - (0.36 * head) * n}), color);
+}
+
+Path arc(Point centre, double radius, double from, double to) {
+  Path path;
+  constexpr int steps = 24;
+  for (int i = 0; i <= steps; ++i) {
+    const double a = from + (to - from) * i / steps;
+    const Point p{centre.x + radius * std::cos(a), centre.y + radius * std::sin(a)};
+    i ? path.line(p) : path.move(p);
+  }
+  return path;
+}
+
+/// About five of them: a bar is read for its order of magnitude, not like an axis.
+plot::Ticks bar_ticks(const Survey& survey, double length, double size, bool horizontal) {
+  plot::Span span;
+  span.low = survey.low, span.high = survey.high;
+  return plot::ticks_for(span, std::min(length, 11 * size), size, horizontal);
+}
+
+/// Degrees without digits that say nothing: 18, 14.4.
+std::string degrees_text(double radians) {
+  const double degrees = std::abs(radians) * 180 / std::numbers::pi;
+  return fmt::format("{:g}", std::round(degrees * 10) / 10);
+}
+
+}  // namespace
+
+void lay_over(image::Image& bottom, const image::Image& top, int left, int above) {
+  for (int y = std::max(0, -above); y < top.height && y + above < bottom.height; ++y)
+    for (int x = std::max(0, -left); x < top.width && x + left < bottom.width; ++x) {
+      const std::uint8_t* s = top.pixel(x, y);
+      if (s[3] == 0) continue;
+      std::uint8_t* d = bottom.pixel(x + left, y + above);
+      const int a = s[3], rest = d[3] * (255 - a), sum = 255 * a + rest;  // alphas times 255
+      for (int c = 0; c < 3; ++c)
+        d[c] = static_cast<std::uint8_t>((255 * a * s[c] + rest * d[c] + sum / 2) / sum);
+      d[3] = static_cast<std::uint8_t>((sum + 127) / 255);
+    }
+}
+
+std::string time_text(const Survey& survey, double time) {
+  const auto number = fmt::format("{:.{}f}", time, survey.time_decimals);
+  if (survey.units == "reduced") return fmt::format("$t = {}\\,\\sqrt{{d/g}}$", number);
+  if (survey.units == "SI") return fmt::format("$t = {}\\,\\mathrm{{s}}$", number);
+  return fmt::format("$t = {}$", number);
+}
+
+double plain_length(double longest) {
+  const double unit = std::pow(10, std::floor(std::log10(longest)));
+  const double times = longest / unit;
+  return unit * (times >= 5 ? 5 : times >= 2 ? 2 : 1);
+}
+
+std::string length_text(double length, const std::string& units) {
+  if (units == "reduced") return length == 1 ? "$d$" : fmt::format("${:g}\\,d$", length);
+  if (units != "SI") return fmt::format("{:g}", length);
+  struct Unit {
+    double metres;
+    const char* name;
+  };
+  for (const Unit unit : {Unit{1, "m"}, Unit{1e-2, "cm"}, Unit{1e-3, "mm"}, Unit{1e-6, "\\mu m"}})
+    if (length >= 0.999 * unit.metres) {
+      const double times = std::round(length / unit.metres * 1e6) / 1e6;
+      if (unit.metres == 1e-6) return fmt::format("${:g}\\,\\mu\\mathrm{{m}}$", times);
+      return fmt::format("{:g} {}", times, unit.name);
+    }
+  return fmt::format("{:g} m", length);
+}
+
+Furniture::Furniture(const FrameStyle& style, const Survey& survey, const ColorMap& map, double aspect)
+    : style_(style), survey_(survey), map_(map), palette_(palette_of(style.background)), title_(survey.field.title(survey.units)) {
+  double title = 0, labels = 0;
+  if (!survey.field.is_none()) {
+    constexpr double size = 100;  // any: widths in em are asked for
+    title = plot::set_text(title_, size).width / size;
+    for (const auto& tick : bar_ticks(survey, 12 * size, small * size, false).major)
+      labels = std::max(labels, plot::set_text(tick.label, small * size).width / size);
+  }
+  layout_ = arrange(style, survey, aspect, title, labels);
+}
+
+void Furniture::draw_bar(DisplayList& list) const {
+  const double em = layout_.em;
+  const Rect& bar = layout_.bar;
+  const bool upright = layout_.upright_bar;
+  const double length = upright ? bar.height() : bar.width();
+  // a step per pixel, each a little over the next so that no seam shows
+  const int steps = std::max(2, static_cast<int>(std::lround(length)));
+  for (int i = 0; i < steps; ++i) {
+    const Rgb c = map_.at((i + 0.5) / steps);
+    const double a = length * i / steps, b = std::min(length, length * (i + 1) / steps + 1);
+    const Rect slice = upright ? Rect{bar.left, bar.bottom - b, bar.right, bar.bottom - a}
+                               : Rect{bar.left + a, bar.top, bar.left + b, bar.bottom};
+    list.fill(Path().rectangle(slice), {c.r, c.g, c.b, 1});
+  }
+  // pointed ends: there are values beyond
+  const auto point_at = [&](bool high) {
+    const Rgb c = map_.at(high ? 1 : 0);
+    const double reach = 0.55 * em, sign = high ? 1 : -1;
+    const Point tip = upright ? Point{bar.centre().x, (high ? bar.top : bar.bottom) - sign * reach}
+                              : Point{(high ? bar.right : bar.left) + sign * reach, bar.centre().y};
+    const Point a = upright ? Point{bar.left, high ? bar.top : bar.bottom} : Point{high ? bar.right : bar.left, bar.top};
+    const Point b = upright ? Point{bar.right, a.y} : Point{a.x, bar.bottom};
+    list.fill(polygon({a, tip, b}), {c.r, c.g, c.b, 1});
+  };
+  if (survey_.exceeds_high) point_at(true);
+  if (survey_.exceeds_low) point_at(false);
+
+  const double size = small * em, tick_length = 0.26 * em, hairline = std::max(1.0, 0.045 * em);
+  const auto ticks = bar_ticks(survey_, length, size, !upright);
+  for (const auto& tick : ticks.major) {
+    const double at = length * (tick.value - survey_.low) / (survey_.high - survey_.low);
+    const auto text = plot::set_text(tick.label, size);
+    if (upright) {
+      const double y = bar.bottom - at;
+      list.stroke(segment({bar.right, y}, {bar.right + tick_length, y}), {hairline, {}}, ink());
+      plot::draw_text(list, text, {bar.right + 0.45 * em, y + 0.33 * size}, ink());
+    } else {
+      const double x = bar.left + at;
+      list.stroke(segment({x, bar.bottom}, {x, bar.bottom + tick_length}), {hairline, {}}, ink());
+      plot::draw_text(list, text, {x - text.width / 2, bar.bottom + tick_length + 0.95 * size}, ink());
+    }
+  }
+  const std::string title = ticks.factor.empty() ? title_ : title_ + " " + ticks.factor;
+  plot::draw_text(list, plot::set_text(title, em), layout_.title, ink());
+}
+
+ScaleBar Furniture::flat_scale(double pixels_per_unit) const {
+  const double longest = std::clamp(0.2 * layout_.scene.width(), 3 * layout_.em, 9 * layout_.em);
+  ScaleBar scale;
+  scale.length = plain_length(longest / pixels_per_unit);
+  scale.from = layout_.scale, scale.to = {layout_.scale.x + scale.length * pixels_per_unit, layout_.scale.y};
+  return scale;
+}
+
+Point Furniture::draw_scale(DisplayList& list, const ScaleBar& scale) const {
+  const double em = layout_.em, width = std::max(1.5, 0.1 * em), end = 0.26 * em;
+  const Point along = scale.to - scale.from;
+  const double length = std::hypot(along.x, along.y);
+  if (!(length > 0)) return layout_.scale;
+  const Point u = (1 / length) * along, across{-u.y, u.x};  // downwards if the bar runs to the right
+  for (const Point& p : {scale.from, scale.to})
+    list.stroke(segment(p - end * across, p + end * across), {width, {}}, ink());
+  list.stroke(segment(scale.from, scale.to), {width, {}}, ink());
+  const auto text = plot::set_text(length_text(scale.length, survey_.units), small * em);
+  const Point middle = 0.5 * (scale.from + scale.to) + ((0.75 + 0.35 * std::abs(across.x)) * em) * across;
+  const Point at = scale.label_below ? Point{middle.x - (0.5 + 0.5 * u.y) * text.width, middle.y + 0.5 * em}
+                                     : Point{scale.to.x + 0.5 * em, scale.to.y + 0.3 * small * em};
+  plot::draw_text(list, text, at, ink());
+  return scale.label_below ? layout_.scale : Point{at.x + text.width + 1.6 * em, scale.to.y};
+}
+
+/// An arrow of a plain speed, to read the others by.
+void Furniture::draw_key(DisplayList& list, Point from, double arrow_pixels) const {
+  const double em = layout_.em;
+  const double speed = plain_length(std::min(3 * survey_.speed, 4.5 * em / arrow_pixels));
+  const Point to{from.x + speed * arrow_pixels, from.y};
+  draw_arrow(list, from, to, std::max(1.5, 0.085 * em), 0.55 * em, ink());
+  const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,\\sqrt{{gd}}$", speed)
+                    : survey_.units == "SI"    ? fmt::format("{:g} m/s", speed)
+                                               : fmt::format("{:g}", speed);
+  plot::draw_text(list, plot::set_text(unit, small * em), {to.x + 0.5 * em, to.y + 0.3 * small * em}, ink());
+}
+
+void Furniture::draw_gravity(DisplayList& list, const Directions& directions) const {
+  const double em = layout_.em, size = small * em, line = std::max(1.2, 0.075 * em);
+  const Rect& box = layout_.gravity;
+  const bool solid = survey_.dimensions == 3;
+  const double reach = (solid ? 1.75 : 2.7) * em;
+  // the foot of the arrows; they point down, a little to one side
+  const Point foot = solid ? Point{box.left + 1.75 * em, box.top + 1.75 * em} : Point{box.left + 1.15 * em, box.top + 0.5 * em};
+  if (solid) {
+    constexpr const char* names[] = {"$x$", "$y$", "$z$"};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Point axis = directions.axes[c];
+      const double seen = std::hypot(axis.x, axis.y);
+      if (seen < 0.12) continue;  // it points at the eye
+      const Point tip = foot + (1.4 * em) * axis;
+      list.stroke(segment(foot, tip), {line * 0.8, {}}, quiet());
+      const auto name = plot::set_text(names[c], size);
+      const Point at = tip + (0.5 * em / seen) * axis;
+      plot::draw_text(list, name, {at.x - name.width / 2, at.y + 0.27 * size}, quiet());
+    }
+  } else {
+    const Point n = directions.normal, tip = foot + reach * n;
+    list.stroke(segment(foot, tip), {line * 0.7, {0.28 * em, 0.2 * em}}, quiet());
+    const Point along{-n.y, n.x};
+    list.stroke(segment(tip - (0.6 * em) * along, tip + (0.6 * em) * along), {line * 0.7, {}}, quiet());
+    const double from = std::atan2(n.y, n.x), to = std::atan2(directions.gravity.y, directions.gravity.x);
+    if (std::abs(to - from) > 0.02) list.stroke(arc(foot, 1.4 * em, from, to), {line * 0.7, {}}, ink());
+  }
+  const Point g = directions.gravity, tip = foot + reach * g;
+  draw_arrow(list, foot, tip, line, 0.6 * em, ink());
+  const auto name = plot::set_text("$g$", em);
+  // in space the axes are to the right of the arrow
+  plot::draw_text(list, name, {solid ? tip.x - 0.45 * em - name.width : tip.x + 0.45 * em, tip.y}, ink());
+  const auto angle = plot::set_text(fmt::format("$\\theta = {}\\degree$", degrees_text(survey_.slope)), size);
+  plot::draw_text(list, angle, {box.left, box.bottom - 0.25 * em}, ink());
+}
+
+void Furniture::stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels) {
+  auto list = blank(style_.width, style_.height);
+  if (layout_.has_bar) draw_bar(list);
+  Point key = layout_.scale;
+  if (layout_.has_scale) key = draw_scale(list, scale);
+  if (layout_.has_key) draw_key(list, key, arrow_pixels);
+  if (layout_.has_gravity) draw_gravity(list, directions);
+  standing_ = plot::rasterise_by_cairo(list, pixels);
+}
+
+void Furniture::put_on(image::Image& frame, double time) const {
+  if (!style_.furniture) return;
+  lay_over(frame, standing_);
+  if (!layout_.has_time) return;
+  const auto text = plot::set_text(time_text(survey_, time), layout_.em);
+  const double above = std::ceil(1.5 * layout_.em), below = std::ceil(0.6 * layout_.em);
+  const Point whole{std::floor(layout_.time.x), std::floor(layout_.time.y)};
+  auto list = blank(std::ceil(text.width + layout_.em), above + below);
+  plot::draw_text(list, text, {layout_.time.x - whole.x, above + layout_.time.y - whole.y}, ink());
+  lay_over(frame, plot::rasterise_by_cairo(list, pixels), static_cast<int>(whole.x), static_cast<int>(whole.y - above));
+}
+
+}  // namespace chute::view

@@ -1,0 +1,70 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <string>
+
+#include "image/image.hpp"
+#include "plot/display_list.hpp"
+#include "view/layout.hpp"
+
+namespace chute::view {
+
+/// Directions as they are seen in the picture: x to the right, y down, lengths up to 1.
+struct Directions {
+  plot::Point gravity, normal;         ///< where gravity points; into the incline
+  std::array<plot::Point, 3> axes{};   ///< 3D: the coordinate axes
+};
+
+/// A line of known length in the scene, pixels. Its label stands at its end, or below it.
+struct ScaleBar {
+  plot::Point from, to;
+  double length = 1;  ///< in the files' unit
+  bool label_below = false;
+};
+
+/// All that is not grains: colour bar, time, scale bar, gravity. What stays the same is drawn once.
+class Furniture {
+ public:
+  /// `aspect` of the scene, see arrange(). `map` colours the bar.
+  Furniture(const FrameStyle& style, const Survey& survey, const ColorMap& map, double aspect);
+
+  const Layout& layout() const { return layout_; }
+
+  /// A horizontal scale bar below the scene, if one unit is that many pixels long everywhere.
+  ScaleBar flat_scale(double pixels_per_unit) const;
+
+  /// Draws the standing part. `arrow_pixels` is the length of an arrow for speed 1.
+  void stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels);
+
+  /// Puts everything on a frame whose time is `time`.
+  void put_on(image::Image& frame, double time) const;
+
+ private:
+  FrameStyle style_;
+  const Survey& survey_;
+  const ColorMap& map_;
+  Palette palette_;
+  std::string title_;
+  Layout layout_;
+  image::Image standing_;
+
+  void draw_bar(plot::DisplayList& list) const;
+  /// Gives the place to the right of it.
+  plot::Point draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
+  void draw_key(plot::DisplayList& list, plot::Point from, double arrow_pixels) const;
+  void draw_gravity(plot::DisplayList& list, const Directions& directions) const;
+  plot::Color ink() const { return {palette_.ink.r, palette_.ink.g, palette_.ink.b, 1}; }
+  plot::Color quiet() const { return {palette_.quiet.r, palette_.quiet.g, palette_.quiet.b, 1}; }
+};
+
+/// Lays `top` over `bottom` with its upper left corner at (left, above); both with straight alpha.
+void lay_over(image::Image& bottom, const image::Image& top, int left = 0, int above = 0);
+
+/// "t = 12.50 √(d/g)", "t = 0.125 s": the time label in the plots' TeX.
+std::string time_text(const Survey& survey, double time);
+
+/// A length of 1, 2 or 5 times a power of ten, at most `longest`; and its label with unit.
+double plain_length(double longest);
+std::string length_text(double length, const std::string& units);
+
+}  // namespace chute::view

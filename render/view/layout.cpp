@@ -1,0 +1,99 @@
+#include "view/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chute::view {
+namespace {
+
+// All in em, the size of the type.
+constexpr double margin = 1.3;         // around everything
+constexpr double line = 1.55;          // the line of time above the scene, with the space to it
+constexpr double foot = 1.9;           // the scale bar below the scene, with the space to it
+constexpr double gap = 1.5;            // between the scene and what stands beside it
+constexpr double bar_width = 0.85;     // of the colours
+constexpr double label_gap = 0.5;      // colours to numbers
+constexpr double longest_bar = 20;
+constexpr double gravity_width = 4.4, gravity_height = 5.0;
+
+struct Fit {
+  Layout layout;
+  double size;  ///< width of the scene
+};
+
+Fit beside(Layout layout, double width, double height, double aspect, double title, double labels) {
+  const double em = layout.em;
+  const double panel = em * std::max(layout.has_bar ? std::max(title, bar_width + label_gap + labels) : 0,
+                                     layout.has_gravity ? gravity_width : 0);
+  const double space = panel > 0 ? gap * em : 0;
+  const double top = layout.has_time ? line * em : 0, bottom = layout.foot * em;
+  const double free_width = width - 2 * margin * em - space - panel, free_height = height - 2 * margin * em - top - bottom;
+  const double w = std::max(1.0, std::min(free_width, free_height * aspect)), h = w / aspect;
+  const double left = (width - w - space - panel) / 2, above = (height - h - top - bottom) / 2 + top;
+  layout.scene = {left, above, left + w, above + h};
+  layout.time = {left, above - (line - 1) * em};
+  layout.scale = {left, above + h + 1.15 * em};
+
+  // the panel is as high as the scene if that is enough for a bar and the arrows
+  const double x = left + w + space;
+  const double least = em * ((layout.has_bar ? 8.5 : 0) + (layout.has_gravity ? gravity_height : 0));
+  const double extra = std::max(0.0, least - h) / 2;
+  const double panel_top = std::max(margin * em, above - extra);
+  const double panel_bottom = std::min(height - margin * em, above + h + extra);
+  layout.gravity = {x, panel_bottom - gravity_height * em, x + gravity_width * em, panel_bottom};
+  layout.title = {x, panel_top + 0.8 * em};
+  const double bar_top = panel_top + 1.75 * em;
+  const double bar_bottom = panel_bottom - (layout.has_gravity ? gravity_height + 1.2 : 0.2) * em;
+  layout.bar = {x, bar_top, x + bar_width * em, std::min(bar_bottom, bar_top + longest_bar * em)};
+  layout.upright_bar = true;
+  return {layout, layout.bar.height() < 5 * em && layout.has_bar ? 0.0 : w};
+}
+
+Fit below(Layout layout, double width, double height, double aspect, double title, double labels) {
+  const double em = layout.em;
+  const double top = layout.has_time ? line * em : 0;
+  const double row = em * (layout.has_gravity ? gravity_height + 0.6 : layout.has_bar ? 3.4 : layout.foot);
+  const double free_width = width - 2 * margin * em, free_height = height - 2 * margin * em - top - row;
+  const double w = std::max(1.0, std::min(free_width, free_height * aspect)), h = w / aspect;
+  const double left = (width - w) / 2, above = (height - h - top - row) / 2 + top;
+  layout.scene = {left, above, left + w, above + h};
+  layout.time = {left, above - (line - 1) * em};
+  layout.scale = {left, above + h + 1.25 * em};
+  layout.gravity = {left + w - gravity_width * em, above + h + 0.6 * em, left + w, above + h + (0.6 + gravity_height) * em};
+  // between the scale bar (8 em) and the arrows: title, then colours
+  const double from = left + em * (layout.has_scale ? 9 : 0), to = left + w - em * (layout.has_gravity ? gravity_width + 2 : 0);
+  const double length = std::min(to - from - em * (title + 0.9 + labels), 1.3 * longest_bar * em);
+  const double start = from + (to - from - length - em * (title + 0.9)) / 2;
+  const double y = above + h + 1.25 * em;
+  layout.title = {start, y + 0.3 * em};
+  layout.bar = {start + (title + 0.9) * em, y - bar_width / 2 * em, start + (title + 0.9) * em + length, y + bar_width / 2 * em};
+  layout.upright_bar = false;
+  return {layout, length < 7 * em && layout.has_bar ? 0.0 : w};
+}
+
+}  // namespace
+
+Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width, double label_width) {
+  const double width = style.width, height = style.height;
+  Layout layout;
+  // readable at 400 x 300, quiet at 1920 x 1080
+  layout.em = std::max(12.0, 0.0225 * std::sqrt(width * height));
+  if (!style.furniture) {
+    const double edge = 0.02 * std::min(width, height);
+    const double w = std::min(width - 2 * edge, (height - 2 * edge) * aspect), h = w / aspect;
+    layout.scene = {(width - w) / 2, (height - h) / 2, (width + w) / 2, (height + h) / 2};
+    return layout;
+  }
+  layout.has_bar = !survey.field.is_none();
+  layout.has_time = survey.has_times;
+  layout.has_gravity = survey.gravity != std::array<double, 3>{};
+  layout.has_scale = true;
+  layout.has_key = style.arrows && survey.speed > 0;
+  // in space the scale bar is part of the scene, only its label may reach below
+  layout.foot = survey.dimensions == 2 || layout.has_key ? foot : 0.8;
+  const auto side = beside(layout, width, height, aspect, title_width, label_width);
+  const auto under = below(layout, width, height, aspect, title_width, label_width);
+  return side.size >= under.size ? side.layout : under.layout;
+}
+
+}  // namespace chute::view

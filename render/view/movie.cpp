@@ -1,0 +1,119 @@
+#include "view/movie.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "view/encoder.hpp"
+
+namespace chute::view {
+namespace fs = std::filesystem;
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words input_words(int width, int height, double rate) {
+  return {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba",
+          "-video_size", fmt::format("{}x{}", width, height), "-framerate", fmt::format("{}", rate), "-i", "pipe:0"};
+}
+
+// H.264's colours are sampled at half the size: sides must be even. BT.709, said in the file, so that players show the
+// colours that were drawn. As many threads everywhere, since they change the bytes; no versions or times in the file.
+Words h264_words() {
+  return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,scale=out_color_matrix=bt709:out_range=tv"
+                 ":flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p",
+          "-c:v", "libx264", "-preset", "medium", "-crf", "17", "-tune", "animation", "-threads", "4",
+          "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv",
+          "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags", "+faststart", "-f", "mp4"};
+}
+
+void over_ground(image::Image& picture, Rgb ground) {
+  const double rgb[3] = {255 * ground.r, 255 * ground.g, 255 * ground.b};
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+    const double alpha = picture.rgba[i + 3] / 255.0;
+    if (alpha == 1) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.rgba[i + c] = static_cast<std::uint8_t>(std::lround(alpha * picture.rgba[i + c] + (1 - alpha) * rgb[c]));
+    picture.rgba[i + 3] = 255;
+  }
+}
+
+}  // namespace
+
+struct Movie::Inside {
+  fs::path path, temporary;
+  int width, height;
+  bool transparent;
+  Rgb ground;
+  Encoder encoder;
+  image::Image flat;
+
+  Inside(fs::path p, fs::path t, int w, int h, bool keeps_alpha, Rgb g, const Words& words)
+      : path(std::move(p)), temporary(std::move(t)), width(w), height(h), transparent(keeps_alpha), ground(g), encoder(words) {}
+  ~Inside() {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+  }
+};
+
+Movie::Kind Movie::kind_of(const fs::path& path) {
+  const auto extension = path.extension();
+  if (extension == ".mp4") return Kind::h264;
+  if (extension == ".gif") return Kind::gif;
+  if (extension == ".png" || extension == ".apng") return Kind::apng;
+  throw InputError(path.string() + ": the movie's name must end in .mp4, .gif or .png");
+}
+
+Movie::Movie(const fs::path& path, int width, int height, double frames_per_second, Rgb ground, const fs::path& palette) {
+  const auto kind = kind_of(path);
+  std::error_code error;
+  if (!path.parent_path().empty()) fs::create_directories(path.parent_path(), error);
+  const fs::path temporary = detail::beside(path);
+  Words words = input_words(width, height, frames_per_second);
+  const auto append = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
+  if (kind == Kind::h264) append(h264_words());
+  if (kind == Kind::gif && palette.empty())
+    append({"-vf", "palettegen=stats_mode=full", "-frames:v", "1", "-update", "1", "-f", "image2", "-c:v", "png"});
+  else if (kind == Kind::gif)
+    append({"-i", palette.string(), "-lavfi", "paletteuse=dither=none:diff_mode=rectangle", "-loop", "0", "-f", "gif"});
+  if (kind == Kind::apng) append({"-c:v", "apng", "-pred", "mixed", "-plays", "0", "-f", "apng"});
+  words.push_back("file:" + temporary.string());
+  inside_ = std::make_unique<Inside>(path, temporary, width, height, kind == Kind::apng, ground, words);
+}
+
+Movie::~Movie() = default;
+
+void Movie::add(const image::Image& picture) {
+  auto& in = *inside_;
+  if (picture.width != in.width || picture.height != in.height)
+    throw WorkError(in.path.string() + ": the pictures of a movie must all have one size");
+  if (in.transparent) {
+    in.encoder.write(picture.rgba.data(), picture.rgba.size());
+  } else {
+    in.flat = picture;
+    over_ground(in.flat, in.ground);
+    in.encoder.write(in.flat.rgba.data(), in.flat.rgba.size());
+  }
+}
+
+void Movie::finish() {
+  inside_->encoder.finish();
+  detail::move_into_place(inside_->temporary, inside_->path);
+}
+
+PalettePicker::PalettePicker(const fs::path& beside, int width, int height, Rgb ground)
+    : file_(detail::beside(beside.parent_path() / (beside.stem().string() + "-palette.gif"))),
+      maker_(std::make_unique<Movie>(file_, width, height, 1, ground)) {}
+
+PalettePicker::~PalettePicker() {
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
+void PalettePicker::add(const image::Image& picture) { maker_->add(picture); }
+void PalettePicker::finish() { maker_->finish(); }
+
+}  // namespace chute::view

@@ -1,0 +1,190 @@
+#include "view/render_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <memory>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "image/png.hpp"
+#include "read/run_frames.hpp"
+#include "view/crew.hpp"
+#include "view/frame_renderer.hpp"
+#include "view/movie.hpp"
+
+namespace chute::view {
+namespace fs = std::filesystem;
+namespace {
+
+// Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
+constexpr int drawing_version = 1;
+constexpr const char* drawn_from = "Drawn-From";
+
+/// FNV-1a over texts and files: tells whether a picture is drawn from the same.
+class Hash {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    value_ = (value_ ^ bytes.size()) * 0x100000001b3u;
+  }
+  std::string text() const { return fmt::format("{:016x}", value_); }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+bool is_drawn(const fs::path& picture, const std::string& hash) {
+  std::error_code error;
+  if (!fs::exists(picture, error)) return false;
+  try {
+    const auto text = image::read_png_text(picture);
+    const auto found = text.find(drawn_from);
+    return found != text.end() && found->second == hash;
+  } catch (const InputError&) {
+    return false;  // damaged, or something else: it is replaced
+  }
+}
+
+/// Draws single frames of a run; one per process.
+class FrameDrawer {
+ public:
+  FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey)
+      : job_(job), frames_(frames), survey_(survey) {
+    common_.add(fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(), survey.describe(),
+                            job.radius.value_or(0)));
+  }
+
+  /// True if frame `number` had to be drawn.
+  bool operator()(std::size_t number, bool wanted, image::Image& into) {
+    const auto& file = frames_[number];
+    const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
+    for (std::size_t i = oldest; i < number; ++i) load(i);
+    const std::string bytes = read_file(file.path);
+    const std::string network = job_.style.chains && !file.contacts.empty() ? read_file(file.contacts) : std::string();
+
+    const fs::path picture = job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
+    Hash hash = common_;
+    hash.add(fmt::format("{}", survey_.times[number]));
+    hash.add(bytes);
+    hash.add(network);
+    for (std::size_t i = oldest; i < number; ++i) hash.add(earlier_[i - first_earlier_].hash);
+    if (!picture.empty() && is_drawn(picture, hash.text())) {
+      if (wanted) into = image::read_png(picture);
+      return false;
+    }
+
+    if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
+    const auto frame = read::parse_frame(bytes, file.path, job_.radius);
+    const auto contacts = network.empty() ? std::vector<read::Contact>() : read::parse_contacts(network, file.contacts);
+    std::vector<const read::GrainFrame*> trail;
+    for (std::size_t i = oldest; i < number; ++i) trail.push_back(&earlier_[i - first_earlier_].frame);
+    const auto& drawn = renderer_->draw(frame, survey_.times[number], contacts, trail);
+    if (!picture.empty())
+      image::write_png(picture, drawn, {{"Software", "chute"}, {"Source", file.path.filename().string()},
+                                        {drawn_from, hash.text()}});
+    if (wanted) into = drawn;
+    return true;
+  }
+
+ private:
+  struct Earlier {
+    read::GrainFrame frame;
+    std::string hash;
+  };
+  const RenderJob& job_;
+  const std::vector<read::FrameFile>& frames_;
+  const Survey& survey_;
+  Hash common_;
+  std::unique_ptr<FrameRenderer> renderer_;
+  std::deque<Earlier> earlier_;  ///< frames first_earlier_, first_earlier_ + 1 …: trails share most of them
+  std::size_t first_earlier_ = 0;
+
+  /// Keeps frame `i`; those too old for its trail go.
+  void load(std::size_t i) {
+    if (i < first_earlier_ || i > first_earlier_ + earlier_.size()) earlier_.clear();
+    if (earlier_.empty()) first_earlier_ = i;
+    if (i < first_earlier_ + earlier_.size()) return;
+    const auto bytes = read_file(frames_[i].path);
+    Hash hash;
+    hash.add(bytes);
+    earlier_.push_back({read::parse_frame(bytes, frames_[i].path, job_.radius), hash.text()});
+    while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64) earlier_.pop_front(), ++first_earlier_;
+  }
+};
+
+}  // namespace
+
+std::vector<std::size_t> frame_numbers(const FrameRange& range, std::size_t count) {
+  if (range.step == 0) throw InputError("frames: the step must be at least 1");
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = range.first; i < std::min(count, range.end.value_or(count)); i += range.step) numbers.push_back(i);
+  if (numbers.empty()) throw InputError(fmt::format("frames: none in that range, the run has {} (from 0)", count));
+  return numbers;
+}
+
+RenderReport render_run(const RenderJob& job) {
+  job.style.check();
+  if (job.output.empty() && job.movie.empty()) throw InputError("neither a folder for pictures nor a movie is asked for");
+  if (!(job.frames_per_second > 0 && job.frames_per_second <= 1000))
+    throw InputError(fmt::format("{} frames per second: must be in (0, 1000]", job.frames_per_second));
+  if (job.jobs < 1 || job.jobs > 1024) throw InputError(fmt::format("{} jobs: must be in [1, 1024]", job.jobs));
+  if (job.radius && !(*job.radius > 0)) throw InputError(fmt::format("radius {}: must be > 0", *job.radius));
+  const bool is_gif = !job.movie.empty() && Movie::kind_of(job.movie) == Movie::Kind::gif;
+
+  const auto frames = read::find_frames(job.source);
+  const auto numbers = frame_numbers(job.frames, frames.size());
+  const auto tell = [&](const char* what, std::size_t done, std::size_t all) {
+    if (job.progress) job.progress(what, done, all);
+  };
+  const Survey found = survey(frames, job.style, job.radius,
+                              [&](std::size_t done) { tell("reading", done, frames.size()); });
+  if (!job.output.empty()) {
+    std::error_code error;
+    fs::create_directories(job.output, error);
+    if (error) throw WorkError(fmt::format("{}: cannot be made: {}", job.output.string(), error.message()));
+  }
+
+  RenderReport report;
+  const auto& style = job.style;
+  const auto draw = [&](const std::vector<std::size_t>& which, bool wanted, const Take& take) {
+    draw_all(which.size(), job.jobs, style.width, style.height, wanted,
+             [&]() -> Draw {
+               auto drawer = std::make_shared<FrameDrawer>(job, frames, found);
+               return [drawer, &which](std::size_t i, bool pixels, image::Image& into) {
+                 return (*drawer)(which[i], pixels, into);
+               };
+             },
+             take);
+  };
+  const auto count = [&](std::size_t i, bool drawn) {
+    ++(drawn ? report.drawn : report.kept);
+    tell("drawing", i + 1, numbers.size());
+  };
+  if (job.movie.empty()) {
+    draw(numbers, false, [&](std::size_t i, bool drawn, const image::Image&) { count(i, drawn); });
+    return report;
+  }
+
+  const Rgb ground = palette_of(style.background).ground;
+  std::unique_ptr<PalettePicker> palette;
+  if (is_gif) {  // its colours come from up to a dozen frames, evenly spread
+    palette = std::make_unique<PalettePicker>(job.movie, style.width, style.height, ground);
+    std::vector<std::size_t> some;
+    const std::size_t all = numbers.size(), samples = std::min<std::size_t>(all, 12);
+    for (std::size_t k = 0; k < samples; ++k) some.push_back(numbers[samples > 1 ? k * (all - 1) / (samples - 1) : 0]);
+    draw(some, true, [&](std::size_t, bool, const image::Image& picture) { palette->add(picture); });
+    palette->finish();
+  }
+  Movie movie(job.movie, style.width, style.height, job.frames_per_second, ground, palette ? palette->file() : fs::path());
+  draw(numbers, true, [&](std::size_t i, bool drawn, const image::Image& picture) {
+    movie.add(picture);
+    count(i, drawn);
+  });
+  movie.finish();
+  return report;
+}
+
+}  // namespace chute::view

@@ -1,0 +1,85 @@
+#include <catch2/catch.hpp>
+#include <ostream>
+
+#include "common/error.hpp"
+#include "folder.hpp"
+#include "io/checkpoint_file.hpp"
+
+using namespace chute;
+using namespace chute::test;
+
+namespace {
+
+const std::string scene = "title = \"a scene\"\n";
+const std::string state("grains \0 and so on", 18);
+
+std::string saved(const Folder& folder) {
+  io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream& out) { out << state; });
+  return content(folder / "checkpoint");
+}
+std::string refused(const Folder& folder, const std::string& bytes, const std::string& of = scene) {
+  write(folder / "checkpoint", bytes);
+  return message<InputError>([&] { io::read_checkpoint(folder / "checkpoint", of); });
+}
+
+}  // namespace
+
+TEST_CASE("a checkpoint gives back what was saved") {
+  const Folder folder;
+  saved(folder);
+  CHECK(io::read_checkpoint(folder / "checkpoint", scene) == state);
+  io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream&) {});
+  CHECK(io::read_checkpoint(folder / "checkpoint", scene).empty());
+}
+
+TEST_CASE("a checkpoint cut anywhere is refused in one line") {
+  const Folder folder;
+  const auto whole = saved(folder);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    INFO("cut after " << size << " bytes");
+    const auto says = refused(folder, whole.substr(0, size));
+    CHECK(says.starts_with((folder / "checkpoint").string() + ": "));
+    CHECK(says.find('\n') == says.npos);
+  }
+  CHECK(refused(folder, whole + "x").starts_with((folder / "checkpoint").string() + ": "));
+}
+
+TEST_CASE("a checkpoint with one flipped bit is refused in one line") {
+  const Folder folder;
+  const auto whole = saved(folder);
+  for (std::size_t byte = 0; byte < whole.size(); ++byte)
+    for (int bit = 0; bit < 8; ++bit) {
+      INFO("byte " << byte << ", bit " << bit);
+      auto damaged = whole;
+      damaged[byte] = static_cast<char>(damaged[byte] ^ 1 << bit);
+      const auto says = refused(folder, damaged);
+      CHECK(says.starts_with((folder / "checkpoint").string() + ": "));
+      CHECK(says.find('\n') == says.npos);
+    }
+}
+
+TEST_CASE("a checkpoint of another scene is refused") {
+  const Folder folder;
+  const auto whole = saved(folder);
+  CHECK(refused(folder, whole, "title = \"another\"\n") == (folder / "checkpoint").string() + ": belongs to another scene");
+  CHECK(refused(folder, whole, scene + " ") == (folder / "checkpoint").string() + ": belongs to another scene");
+}
+
+TEST_CASE("a missing checkpoint is an input error") {
+  const Folder folder;
+  CHECK(message<InputError>([&] { io::read_checkpoint(folder / "none", scene); }) ==
+        (folder / "none").string() + ": cannot read: No such file or directory");
+}
+
+TEST_CASE("a save that fails leaves the old checkpoint whole and nothing beside it") {
+  const Folder folder;
+  const auto whole = saved(folder);
+  struct Oops {};
+  CHECK_THROWS_AS(io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream& out) {
+                    out << "half";
+                    throw Oops{};
+                  }),
+                  Oops);
+  CHECK(content(folder / "checkpoint") == whole);
+  CHECK(tree(folder.path()).size() == 1);
+}
