@@ -11,8 +11,12 @@
 namespace chute::plot {
 
 void Margins::widen(const Margins& m) {
-  left = std::max(left, m.left), right = std::max(right, m.right);
-  top = std::max(top, m.top), bottom = std::max(bottom, m.bottom);
+  left = std::max(left, m.left);
+  right = std::max(right, m.right);
+  top = std::max(top, m.top);
+  const double rest = std::max(bottom - x_gap, m.bottom - m.x_gap);
+  x_gap = std::max(x_gap, m.x_gap);
+  bottom = x_gap + rest;
 }
 
 TextBox set_to_fit(const std::string& text, double size, double room) {
@@ -28,6 +32,17 @@ TextBox set_to_fit(const std::string& text, double size, double room) {
   }
 }
 
+namespace {
+
+/// Labels with and without accents or subscripts share a baseline: all are as tall as an accented letter at
+/// least.
+void stand_on_strut(TextBox& text, double size) {
+  text.ascent = std::max(text.ascent, 0.85 * size);
+  text.descent = std::max(text.descent, 0.3 * size);
+}
+
+}  // namespace
+
 Axes::Axes(const Plot& plot, const Span& x, const Span& y, const TextSizes& sizes, bool show_x, bool show_y)
     : plot_(plot), x_(x), y_(y), sizes_(sizes), show_x_(show_x), show_y_(show_y) {}
 
@@ -38,22 +53,32 @@ Margins Axes::fit(double width, double height) {
   tick_ascent_ = tick_descent_ = 0;
   Margins m;
   const double gap = sizes_.gap;
+  double below = 0;  // how far y tick labels reach below the frame
+  if (show_y_)
+    for (const auto& tick : y_ticks_.major) {
+      const auto text = set_text(tick.label, sizes_.tick);
+      below = std::max(below, (text.ascent + text.descent) / 2 - y_.fraction(tick.value) * height);
+    }
+  m.x_gap = show_x_ ? gap : 0;
   if (show_x_) {
     for (const auto& tick : x_ticks_.major) {
       const auto& text = x_texts_.emplace_back(set_text(tick.label, sizes_.tick));
       tick_ascent_ = std::max(tick_ascent_, text.ascent),
       tick_descent_ = std::max(tick_descent_, text.descent);
       const double at = x_.fraction(tick.value) * width;
+      if (text.width / 2 - at > 0.5 * gap)
+        m.x_gap = std::max(m.x_gap, below + 0.3 * gap);  // they meet at the corner
       m.left = std::max(m.left, text.width / 2 - at),
       m.right = std::max(m.right, at + text.width / 2 - width);
     }
     x_label_ = set_to_fit(plot_.x.label, sizes_.label, width + m.right);
     x_factor_ = x_ticks_.factor.empty() ? TextBox{} : set_text(x_ticks_.factor, sizes_.tick);
-    m.bottom = gap + row();
+    m.bottom = m.x_gap + row();
     // the factor of the tick labels stands at the axis' end, on its label's line if there is room
     x_factor_below_ =
         !x_factor_.empty() && !x_label_.empty() && (width - x_label_.width) / 2 < x_factor_.width + 2 * gap;
     x_line_ = x_label_;
+    if (!x_label_.empty()) stand_on_strut(x_line_, sizes_.label);
     if (!x_factor_.empty() && !x_factor_below_) {
       x_line_.ascent = std::max(x_line_.ascent, x_factor_.ascent);
       x_line_.descent = std::max(x_line_.descent, x_factor_.descent);
@@ -70,6 +95,7 @@ Margins Axes::fit(double width, double height) {
       m.top = std::max(m.top, at + half - height), m.bottom = std::max(m.bottom, half - at);
     }
     y_label_ = set_to_fit(plot_.y.label, sizes_.label, height);
+    if (!y_label_.empty()) stand_on_strut(y_label_, sizes_.label);
     y_factor_ = y_ticks_.factor.empty() ? TextBox{} : set_text(y_ticks_.factor, sizes_.tick);
     m.left = std::max(m.left, gap + widest);
     if (!y_label_.empty())
@@ -110,7 +136,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
     boxes.push_back({kind, text.box_at(at, turns), panel, source});
   };
   if (show_x_) {
-    double y = frame.bottom + gap + tick_ascent_;
+    double y = frame.bottom + common.x_gap + tick_ascent_;
     for (std::size_t i = 0; i < x_texts_.size(); ++i) {
       const double x =
           frame.left + x_.fraction(x_ticks_.major[i].value) * frame.width() - x_texts_[i].width / 2;

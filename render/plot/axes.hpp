@@ -15,6 +15,7 @@ struct TextSizes {
 
 struct Margins {
   double left = 0, right = 0, top = 0, bottom = 0;
+  double x_gap = 0;  ///< part of `bottom`: between the frame and the x tick labels
   void widen(const Margins& m);
 };
 
@@ -32,8 +33,8 @@ class Axes {
   /// Chooses ticks for a frame of this size and says what room they and the labels need around it.
   Margins fit(double width, double height);
 
-  /// Draws ticks, frame and texts. The axis label of y is set `left` points from the frame, so that those of
-  /// one column stand in line; the one of x likewise `bottom`.
+  /// Draws ticks, frame and texts. `common` are the widest margins of the panel's column (left, right) and
+  /// row (x_gap), so that axis labels of a column and tick labels of a row stand in line.
   void draw(DisplayList& list, const Look& look, const Rect& frame, const Margins& common, int panel,
             std::vector<Box>& boxes) const;
 

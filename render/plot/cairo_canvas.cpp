@@ -35,7 +35,7 @@ cairo_font_face_t* cairo_face(Face face) {
 
 class Canvas {
  public:
-  Canvas(cairo_t* cairo, bool pixels) : cairo_(cairo), pixels_(pixels) {}
+  Canvas(cairo_t* cairo, Target target) : cairo_(cairo), target_(target) {}
 
   void draw(const FillItem& item) {
     trace(item.path);
@@ -73,6 +73,11 @@ class Canvas {
       glyphs.push_back({g.id, g.at.x, g.at.y});
       clusters.push_back({g.bytes, 1});
     }
+    if (target_ == Target::pixels) {
+      cairo_glyph_path(cairo_, glyphs.data(), static_cast<int>(glyphs.size()));
+      cairo_fill(cairo_);
+      return cairo_restore(cairo_);
+    }
     cairo_show_text_glyphs(cairo_, run.text.data(), static_cast<int>(run.text.size()), glyphs.data(),
                            static_cast<int>(glyphs.size()), clusters.data(),
                            static_cast<int>(clusters.size()), static_cast<cairo_text_cluster_flags_t>(0));
@@ -80,7 +85,7 @@ class Canvas {
   }
 
   void draw(const DotsItem& item) {
-    if (item.at.size() > dots_kept_as_curves && pixels_)
+    if (item.at.size() > dots_kept_as_curves && target_ == Target::file)
       dots_as_picture(item);
     else
       dots(cairo_, item);
@@ -96,7 +101,7 @@ class Canvas {
 
  private:
   cairo_t* cairo_;
-  bool pixels_;
+  Target target_;
   Rect clip_;
 
   void ink(Color c) { cairo_set_source_rgba(cairo_, c.r, c.g, c.b, c.a); }
@@ -167,7 +172,7 @@ void check_cairo(cairo_status_t status, const char* doing) {
     throw WorkError(std::string("Cairo failed at ") + doing + ": " + cairo_status_to_string(status));
 }
 
-void draw_on_cairo(cairo_t* cairo, const DisplayList& list, double scale, bool pixels_for_long_dots) {
+void draw_on_cairo(cairo_t* cairo, const DisplayList& list, double scale, Target target) {
   cairo_save(cairo);
   cairo_scale(cairo, scale, scale);
   cairo_set_antialias(cairo, CAIRO_ANTIALIAS_BEST);
@@ -180,10 +185,9 @@ void draw_on_cairo(cairo_t* cairo, const DisplayList& list, double scale, bool p
   const Color paper = list.background;
   if (paper.a > 0) {
     cairo_set_source_rgba(cairo, paper.r, paper.g, paper.b, paper.a);
-    cairo_rectangle(cairo, 0, 0, list.width, list.height);
-    cairo_fill(cairo);
+    cairo_paint(cairo);
   }
-  Canvas canvas(cairo, pixels_for_long_dots);
+  Canvas canvas(cairo, target);
   for (const auto& item : list.items) std::visit([&](const auto& i) { canvas.draw(i); }, item);
   cairo_restore(cairo);
   check_cairo(cairo_status(cairo), "drawing");

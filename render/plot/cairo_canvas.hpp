@@ -6,9 +6,12 @@
 /// Draws a display list on any Cairo surface. Included by the Cairo back end's sources only.
 namespace chute::plot {
 
-/// Unit of the surface: points times `scale`. `pixels_for_long_dots`: long scatter plots are put in as a
-/// picture.
-void draw_on_cairo(cairo_t* cairo, const DisplayList& list, double scale, bool pixels_for_long_dots);
+/// What the drawing becomes. In a file text stays text, and long scatter plots are put in as a picture; in
+/// pixels letters are drawn as outlines, since Cairo moves letters made of pixels to whole ones.
+enum class Target { file, pixels };
+
+/// Unit of the surface: points times `scale`.
+void draw_on_cairo(cairo_t* cairo, const DisplayList& list, double scale, Target target);
 
 /// WorkError if Cairo says that something went wrong.
 void check_cairo(cairo_status_t status, const char* doing);

@@ -30,7 +30,7 @@ std::string vector_file(const DisplayList& list,
   cairo_surface_set_fallback_resolution(surface, 600, 600);
   prepare(surface);
   cairo_t* cairo = cairo_create(surface);
-  draw_on_cairo(cairo, list, 1, true);
+  draw_on_cairo(cairo, list, 1, Target::file);
   cairo_show_page(cairo);
   cairo_destroy(cairo);
   cairo_surface_finish(surface);
@@ -84,7 +84,7 @@ image::Image rasterise_by_cairo(const DisplayList& list, double dpi) {
   const int height = static_cast<int>(std::lround(list.height * dpi / 72));
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
   cairo_t* cairo = cairo_create(surface);
-  draw_on_cairo(cairo, list, dpi / 72, false);
+  draw_on_cairo(cairo, list, dpi / 72, Target::pixels);
   cairo_destroy(cairo);
   cairo_surface_flush(surface);
   check_cairo(cairo_surface_status(surface), "drawing");
@@ -107,15 +107,27 @@ image::Image rasterise_by_cairo(const DisplayList& list, double dpi) {
   return picture;
 }
 
+namespace {
+
+/// PNG's and PDF's words for the same thing; both are understood for both.
+std::string png_keyword(const std::string& key) {
+  return key == "Creator" ? "Software" : key == "Subject" ? "Description" : key;
+}
+
+}  // namespace
+
 void draw_png(const DisplayList& list, const std::filesystem::path& path, double dpi,
               const Metadata& metadata) {
-  image::write_png(path, rasterise(list, dpi), metadata, 6, dpi);
+  image::Text text;
+  for (const auto& [key, value] : metadata) text.emplace_back(png_keyword(key), value);
+  image::write_png(path, rasterise(list, dpi), text, 6, dpi);
 }
 
 void draw_pdf(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata) {
   auto bytes = vector_file(list, cairo_pdf_surface_create_for_stream, [&](cairo_surface_t* surface) {
     std::string others;
-    for (const auto& [key, value] : metadata) {
+    for (const auto& [word, value] : metadata) {
+      const auto key = png_keyword(word);
       const auto set = [&, &text = value](cairo_pdf_metadata_t which) {
         cairo_pdf_surface_set_metadata(surface, which, text.c_str());
       };

@@ -172,8 +172,8 @@ class Layouter {
         m.top += heading_height(figure_.panels[i]) + above_frame(static_cast<int>(i), width);
         Margins &c = column_margins_[static_cast<std::size_t>(column(i))],
                 &r = row_margins_[static_cast<std::size_t>(row(i))];
-        c.left = std::max(c.left, m.left), c.right = std::max(c.right, m.right);
-        r.top = std::max(r.top, m.top), r.bottom = std::max(r.bottom, m.bottom);
+        c.widen(m);
+        r.widen(m);
       }
       double used = 2 * margin + between * (columns_ - 1);
       for (const auto& m : column_margins_) used += m.left + m.right;
@@ -234,6 +234,7 @@ class Layouter {
       Margins common;
       common.left = column_margins_[static_cast<std::size_t>(column(i))].left;
       common.right = column_margins_[static_cast<std::size_t>(column(i))].right;
+      common.x_gap = row_margins_[static_cast<std::size_t>(row(i))].x_gap;
       axes_[i]->draw(out.list, look_, frames_[i], common, static_cast<int>(i), out.boxes);
     }
     put_headings(out, occupied);

@@ -300,6 +300,7 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   painter.list.items.emplace_back(ClipEnd{});
   for (auto& s : series) s.error_bars();
   for (auto& s : series) s.markers();
+  for (const auto& reference : plot.references) draw_reference_label(painter, frame, reference);
   for (const auto& note : plot.notes) draw_note(painter, frame, note);
 }
 

@@ -71,30 +71,40 @@ void draw_region(Painter& painter, const Frame& frame, const Plot& plot, const R
   painter.list.fill(polygon_inside(ring, r), shades[static_cast<std::size_t>(region.shade) % shades.size()]);
 }
 
-void draw_reference(Painter& painter, const Frame& frame, const Reference& reference) {
+namespace {
+
+std::vector<Point> reference_points(const Frame& frame, const Reference& reference) {
+  if (reference.kind == Reference::Kind::horizontal)
+    return {frame.at(frame.x.low, reference.at), frame.at(frame.x.high, reference.at)};
+  if (reference.kind == Reference::Kind::vertical)
+    return {frame.at(reference.at, frame.y.low), frame.at(reference.at, frame.y.high)};
+  const bool straight = frame.x.scale == Scale::linear && frame.y.scale == Scale::linear;
+  const int steps = straight ? 1 : 200;  // a curve if one of the axes is logarithmic
   std::vector<Point> points;
-  if (reference.kind == Reference::Kind::horizontal) {
-    points = {frame.at(frame.x.low, reference.at), frame.at(frame.x.high, reference.at)};
-  } else if (reference.kind == Reference::Kind::vertical) {
-    points = {frame.at(reference.at, frame.y.low), frame.at(reference.at, frame.y.high)};
-  } else {
-    constexpr int steps = 200;  // straight on linear axes; a curve if one of them is logarithmic
-    for (int i = 0; i <= steps; ++i) {
-      const double t = static_cast<double>(i) / steps;
-      const double x = frame.x.scale == Scale::linear ? frame.x.low + t * (frame.x.high - frame.x.low)
-                                                      : frame.x.low * std::pow(frame.x.high / frame.x.low, t);
-      points.push_back(frame.at(x, x + reference.at));
-    }
-    if (frame.x.scale == Scale::linear && frame.y.scale == Scale::linear)
-      points = {points.front(), points.back()};
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    const double x = frame.x.scale == Scale::linear ? frame.x.low + t * (frame.x.high - frame.x.low)
+                                                    : frame.x.low * std::pow(frame.x.high / frame.x.low, t);
+    points.push_back(frame.at(x, x + reference.at));
   }
+  return points;
+}
+
+}  // namespace
+
+void draw_reference(Painter& painter, const Frame& frame, const Reference& reference) {
+  const auto points = reference_points(frame, reference);
   Path path;
   add_polyline(path, points, frame.rect);
   if (path.empty()) return;
   const double width = 1.4 * painter.look.hairline;
   painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.quiet);
   mark_polyline(painter.occupied, points, frame.rect, width);
+}
+
+void draw_reference_label(Painter& painter, const Frame& frame, const Reference& reference) {
   if (reference.label.empty()) return;
+  const auto points = reference_points(frame, reference);
   // along the line, above the right end of its last stretch inside the frame
   Point a, b;
   bool inside = false;

@@ -4,7 +4,6 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
-#include <vtkGenericDataObjectReader.h>
 #include <vtkIdList.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -19,8 +18,10 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
 
 #include "common/error.hpp"
+#include "read/legacy_vtk.hpp"
 #include "read/xml_check.hpp"
 
 namespace chute::read {
@@ -78,17 +79,6 @@ vtkSmartPointer<vtkPointSet> read_xml(std::string& bytes) {
   return reader->GetErrorCode() == 0 ? vtkPointSet::SafeDownCast(reader->GetOutputAsDataSet()) : nullptr;
 }
 
-vtkSmartPointer<vtkPointSet> read_legacy(std::string& bytes) {
-  vtkNew<vtkGenericDataObjectReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetBinaryInputString(bytes.data(), static_cast<int>(bytes.size()));
-  reader->ReadAllScalarsOn();
-  reader->ReadAllVectorsOn();
-  reader->ReadAllFieldsOn();
-  reader->Update();
-  return vtkPointSet::SafeDownCast(reader->GetOutput());
-}
-
 /// The value of attribute `type` of the element VTKFile, empty if the text does not start like a VTK XML file.
 std::string_view xml_type(std::string_view text) {
   const auto start = text.substr(0, 4096).find("<VTKFile");
@@ -115,33 +105,8 @@ std::vector<PointArray> arrays_of(vtkFieldData* data) {
   return arrays;
 }
 
-}  // namespace
-
-VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path) {
-  const auto fail = [&](const std::string& what) -> void { throw InputError(path.string() + ": " + what); };
-  if (bytes.empty()) fail("the file is empty");
-  vtkSmartPointer<vtkPointSet> set;
-  std::string complaint;
-  {
-    Listening listening;
-    const auto type = xml_type(bytes);
-    if (!type.empty())
-      if (const auto fault = xml_fault(bytes); !fault.empty()) fail("damaged or cut short: " + fault);
-    if (!type.empty() && type != "PolyData" && type != "UnstructuredGrid")
-      fail(fmt::format("a VTK file of type {}, expected PolyData or UnstructuredGrid", type));
-    if (type.empty() && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
-    try {
-      set = type == "PolyData"           ? read_xml<vtkXMLPolyDataReader>(bytes)
-            : type == "UnstructuredGrid" ? read_xml<vtkXMLUnstructuredGridReader>(bytes)
-                                         : read_legacy(bytes);
-    } catch (const std::bad_alloc&) {
-      fail("damaged: it asks for more memory than there is");
-    }
-    complaint = listening.kept->first;
-  }
-  if (!complaint.empty()) fail("damaged or cut short: " + complaint);
-  if (!set) fail("damaged or cut short");
-
+/// The arrays, points and lines of what VTK has read.
+VtkPoints copied(vtkPointSet* set) {
   VtkPoints result;
   const auto count = static_cast<std::size_t>(set->GetNumberOfPoints());
   result.x.resize(count), result.y.resize(count), result.z.resize(count);
@@ -163,12 +128,42 @@ VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path) {
     set->GetCellPoints(i, cell);
     if (cell->GetNumberOfIds() != 2) continue;
     const auto a = static_cast<std::size_t>(cell->GetId(0)), b = static_cast<std::size_t>(cell->GetId(1));
-    if (a >= count || b >= count) fail("damaged: a line ends at a point that is not there");
+    if (a >= count || b >= count) throw std::runtime_error("a line ends at a point that is not there");
     result.lines.push_back({a, b});
     result.line_cells.push_back(static_cast<std::size_t>(i));
   }
+  return result;
+}
+
+/// Throws std::runtime_error that says what is wrong.
+VtkPoints parse_xml(std::string& bytes, bool polydata) {
+  if (const auto fault = xml_fault(bytes); !fault.empty()) throw std::runtime_error(fault);
+  Listening listening;
+  const auto set = polydata ? read_xml<vtkXMLPolyDataReader>(bytes) : read_xml<vtkXMLUnstructuredGridReader>(bytes);
+  if (!listening.kept->first.empty()) throw std::runtime_error(listening.kept->first);
+  if (!set) throw std::runtime_error("VTK cannot read it");
+  return copied(set);
+}
+
+}  // namespace
+
+VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
+  if (bytes.empty()) fail("the file is empty");
+  const std::string type(xml_type(bytes));
+  if (!type.empty() && type != "PolyData" && type != "UnstructuredGrid")
+    fail(fmt::format("a VTK file of type {}, expected PolyData or UnstructuredGrid", type));
+  if (type.empty() && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
+  VtkPoints result;
+  try {
+    result = type.empty() ? parse_legacy_vtk(bytes) : parse_xml(bytes, type == "PolyData");
+  } catch (const std::bad_alloc&) {
+    fail("damaged: it asks for more memory than there is");
+  } catch (const std::runtime_error& error) {
+    fail(fmt::format("damaged or cut short: {}", error.what()));
+  }
   for (const auto& array : result.point_arrays)
-    if (array.values.size() != count * static_cast<std::size_t>(array.components))
+    if (array.values.size() != result.x.size() * static_cast<std::size_t>(array.components))
       fail(fmt::format("damaged or cut short: array \"{}\" does not fit the number of points", array.name));
   return result;
 }

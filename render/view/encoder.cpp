@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -43,9 +44,13 @@ Encoder::Encoder(const std::vector<std::string>& arguments) : name_(arguments.at
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, said_, STDERR_FILENO);
+  posix_spawnattr_t own_group;  // an interrupt from the keyboard is for this program, which then ends the other
+  posix_spawnattr_init(&own_group);
+  posix_spawnattr_setflags(&own_group, POSIX_SPAWN_SETPGROUP);
   pid_t process = -1;
-  const int error = ::posix_spawnp(&process, words[0], &actions, nullptr, words.data(), environ);
+  const int error = ::posix_spawnp(&process, words[0], &actions, &own_group, words.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&own_group);
   ::close(ends[0]);
   if (error != 0) {
     ::close(ends[1]);

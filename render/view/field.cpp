@@ -106,7 +106,7 @@ Field find_field(std::string_view text, const read::GrainFrame& frame) {
   }
   Field field{canonical(name, frame), Field::Part::scalar, 0};
   if (array->components == 1 && part.empty()) return field;
-  if (part == "magnitude" || (part.empty() && array->components <= 3)) {
+  if (array->components > 1 && (part == "magnitude" || (part.empty() && array->components <= 3))) {
     field.part = Field::Part::magnitude;
     // in the plane everything turns about the same axis: the sign is what tells
     if (part.empty() && field.array == fields::angular_velocity.name && frame.dimensions == 2 && array->components == 3)
@@ -116,8 +116,8 @@ Field find_field(std::string_view text, const read::GrainFrame& frame) {
   field.part = Field::Part::component;
   const auto letter = part.size() == 1 ? std::string_view("xyz").find(part[0]) : std::string_view::npos;
   const auto digit = part.size() == 1 ? std::string_view("0123456789").find(part[0]) : std::string_view::npos;
-  field.component = static_cast<int>(std::min(letter, digit));
-  if ((letter == std::string_view::npos && digit == std::string_view::npos) || field.component >= array->components)
+  field.component = static_cast<int>(std::min<std::size_t>(std::min(letter, digit), 99));
+  if (std::min(letter, digit) == std::string_view::npos || array->components == 1 || field.component >= array->components)
     throw InputError(fmt::format("{}: \"{}\" has {} component{}, allowed after it: {}", frame.file.string(), name,
                                  array->components, array->components == 1 ? "" : "s",
                                  array->components == 1   ? "nothing"

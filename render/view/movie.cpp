@@ -25,7 +25,7 @@ Words input_words(int width, int height, double rate) {
 Words h264_words() {
   return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,scale=out_color_matrix=bt709:out_range=tv"
                  ":flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p",
-          "-c:v", "libx264", "-preset", "medium", "-crf", "17", "-tune", "animation", "-threads", "4",
+          "-c:v", "libx264", "-preset", "medium", "-crf", "19", "-tune", "animation", "-threads", "4",
           "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv",
           "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags", "+faststart", "-f", "mp4"};
 }
@@ -48,14 +48,29 @@ struct Movie::Inside {
   int width, height;
   bool transparent;
   Rgb ground;
-  Encoder encoder;
+  std::unique_ptr<Encoder> encoder;
   image::Image flat;
 
   Inside(fs::path p, fs::path t, int w, int h, bool keeps_alpha, Rgb g, const Words& words)
-      : path(std::move(p)), temporary(std::move(t)), width(w), height(h), transparent(keeps_alpha), ground(g), encoder(words) {}
+      : path(std::move(p)), temporary(std::move(t)), width(w), height(h), transparent(keeps_alpha), ground(g) {
+    encode([&] { encoder = std::make_unique<Encoder>(words); });
+  }
   ~Inside() {
+    encoder.reset();
     std::error_code ignored;
     fs::remove(temporary, ignored);
+  }
+  /// Does it; what goes wrong is said with the movie's own name.
+  template <class Work>
+  void encode(Work&& work) {
+    try {
+      work();
+    } catch (const WorkError& error) {
+      std::string what = error.what();
+      const std::string name = "file:" + temporary.string() + ": ";
+      if (const auto at = what.find(name); at != std::string::npos) what.erase(at, name.size());
+      throw WorkError(path.string() + ": " + what);
+    }
   }
 };
 
@@ -91,16 +106,16 @@ void Movie::add(const image::Image& picture) {
   if (picture.width != in.width || picture.height != in.height)
     throw WorkError(in.path.string() + ": the pictures of a movie must all have one size");
   if (in.transparent) {
-    in.encoder.write(picture.rgba.data(), picture.rgba.size());
+    in.encode([&] { in.encoder->write(picture.rgba.data(), picture.rgba.size()); });
   } else {
     in.flat = picture;
     over_ground(in.flat, in.ground);
-    in.encoder.write(in.flat.rgba.data(), in.flat.rgba.size());
+    in.encode([&] { in.encoder->write(in.flat.rgba.data(), in.flat.rgba.size()); });
   }
 }
 
 void Movie::finish() {
-  inside_->encoder.finish();
+  inside_->encode([&] { inside_->encoder->finish(); });
   detail::move_into_place(inside_->temporary, inside_->path);
 }
 

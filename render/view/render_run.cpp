@@ -136,6 +136,8 @@ RenderReport render_run(const RenderJob& job) {
 
   const auto frames = read::find_frames(job.source);
   const auto numbers = frame_numbers(job.frames, frames.size());
+  if (job.style.chains && std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
+    throw InputError(job.source.string() + ": the run kept no contact networks, which force chains are drawn from");
   const auto tell = [&](const char* what, std::size_t done, std::size_t all) {
     if (job.progress) job.progress(what, done, all);
   };

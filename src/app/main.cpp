@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   app::add_run(app);
   app::add_check(app);
   app::add_info(app);
+  app::add_render(app);
   app::add_figure(app);
 
   try {

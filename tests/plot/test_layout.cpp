@@ -24,7 +24,7 @@ Axis random_axis(Dice& dice) {
                                  "$\\sin\\theta$",
                                  "$\\bar{v}_x$ (m/s)",
                                  "$\\frac12\\,\\partial v_x/\\partial h$",
-                                 "Mean velocity $\\bar v_x\\ (\\sqrt{gd})$"};
+                                 "Speed $\\bar v_x\\ (\\sqrt{gd})$"};
   Axis axis;
   axis.label = labels[dice.below(6)];
   const double magnitude = std::pow(10, 24 * dice.uniform() - 12);
@@ -73,7 +73,7 @@ Series random_series(Dice& dice, const Panel& panel, int number) {
 Figure random_figure(Dice& dice) {
   Figure figure;
   const int panels = 1 + dice.below(4);
-  figure.width = dice.below(2) || panels > 2 ? 178 : 86;
+  figure.width = dice.below(2) || panels > 1 ? 178 : 86;
   figure.style = static_cast<Style>(dice.below(8) == 0 ? 2 : 0);
   figure.columns = 1 + dice.below(2);
   figure.share_x = dice.below(4) == 0, figure.share_y = dice.below(4) == 0;
@@ -116,7 +116,7 @@ std::string fault(const Layout& layout) {
                box.kind == Box::Kind::inset;
       };
       if (a.kind == Box::Kind::frame && inside(b) && a.rect.contains(b.rect)) continue;
-      return what + " overlaps " + name_of(b.kind) + " \"" + b.text + "\"";
+      return what + " overlaps " + name_of(b.kind) + " \"" + b.text + "\"" + " panels " + std::to_string(a.panel) + " " + std::to_string(b.panel) + " "+std::to_string(a.rect.left)+" "+std::to_string(a.rect.top)+" "+std::to_string(a.rect.right)+" "+std::to_string(a.rect.bottom)+" / "+std::to_string(b.rect.left)+" "+std::to_string(b.rect.top)+" "+std::to_string(b.rect.right)+" "+std::to_string(b.rect.bottom);
     }
   }
   return "";

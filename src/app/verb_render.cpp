@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include "app/progress.hpp"
+#include "app/verbs.hpp"
+#include "common/error.hpp"
+#include "common/toml_reader.hpp"
+#include "view/render_run.hpp"
+
+namespace chute::app {
+namespace {
+
+struct RenderArguments {
+  std::string run, output, movie, color, range, map, size, frames, camera, background = "white";
+  double fps = 25;
+  int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
+  int trails = 0;
+  double radius = 0;
+  bool tilt = false, arrows = false, chains = false, copies = false, occlusion = false, no_spin = false, bare = false,
+       quiet = false;
+};
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+/// The numbers in `text`, divided by `separator`; empty places are NaN. InputError that says what `option` expects.
+std::vector<double> numbers(const std::string& option, const std::string& text, char separator, const char* expected) {
+  std::vector<double> values;
+  std::size_t from = 0;
+  for (;;) {
+    const auto to = std::min(text.find(separator, from), text.size());
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const char* const end = text.data() + to;
+    const auto [stop, error] = std::from_chars(text.data() + from, end, value);
+    if (to > from && (error != std::errc() || stop != end))
+      throw InputError(fmt::format("{} {}: expected {}", option, text, expected));
+    values.push_back(value);
+    if (to == text.size()) return values;
+    from = to + 1;
+  }
+}
+
+void require(bool holds, const std::string& option, const std::string& text, const char* expected) {
+  if (!holds) throw InputError(fmt::format("{} {}: expected {}", option, text, expected));
+}
+
+bool all_given(const std::vector<double>& values) {
+  return std::none_of(values.begin(), values.end(), [](double x) { return std::isnan(x); });
+}
+
+void read_size(const std::string& text, view::FrameStyle& style) {
+  constexpr const char* expected = "WIDTHxHEIGHT in pixels, such as 1920x1080";
+  const auto sides = numbers("--size", text, 'x', expected);
+  require(sides.size() == 2 && all_given(sides) && sides[0] == std::floor(sides[0]) && sides[1] == std::floor(sides[1]) &&
+              std::abs(sides[0]) < 1e6 && std::abs(sides[1]) < 1e6,
+          "--size", text, expected);
+  style.width = static_cast<int>(sides[0]), style.height = static_cast<int>(sides[1]);
+}
+
+void read_camera(const std::string& text, view::Camera& camera) {
+  constexpr const char* expected =
+      "X0:X1:Y0:Y1 (the part of a plane that is shown) or AZIMUTH:ELEVATION[:ZOOM] (degrees, in space)";
+  const auto values = numbers("--camera", text, ':', expected);
+  require(values.size() >= 2 && values.size() <= 4 && all_given(values), "--camera", text, expected);
+  if (values.size() == 4) {
+    camera.window = {values[0], values[1], values[2], values[3]};
+  } else {
+    camera.azimuth = values[0], camera.elevation = values[1];
+    if (values.size() == 3) camera.zoom = values[2];
+  }
+}
+
+view::FrameRange read_frames(const std::string& text) {
+  constexpr const char* expected = "FIRST:END:STEP, whole numbers, END not included; any may be left out, such as 100: or ::10";
+  const auto values = numbers("--frames", text, ':', expected);
+  for (const double x : values) require(std::isnan(x) || (x >= 0 && x == std::floor(x) && x < 1e9), "--frames", text, expected);
+  require(values.size() <= 3, "--frames", text, expected);
+  view::FrameRange range;
+  if (!std::isnan(values[0])) range.first = static_cast<std::size_t>(values[0]);
+  if (values.size() == 1) range.end = range.first + 1;  // one frame
+  if (values.size() > 1 && !std::isnan(values[1])) range.end = static_cast<std::size_t>(values[1]);
+  if (values.size() > 2 && !std::isnan(values[2])) range.step = static_cast<std::size_t>(values[2]);
+  return range;
+}
+
+view::Background read_background(const std::string& word) {
+  const std::vector<std::string> words{"white", "dark", "transparent"};
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (word == words[i]) return static_cast<view::Background>(i);
+  const auto hint = nearest(word, words);
+  throw InputError(fmt::format("--background {}: not known{}, allowed: white, dark, transparent", word,
+                               hint.empty() ? "" : fmt::format(", did you mean {}?", hint)));
+}
+
+view::RenderJob job_of(const RenderArguments& a) {
+  view::RenderJob job;
+  job.source = a.run;
+  auto& style = job.style;
+  if (!a.size.empty()) read_size(a.size, style);
+  style.color = a.color, style.map = a.map;
+  if (!a.range.empty()) {
+    const auto values = numbers("--range", a.range, ':', "LOW:HIGH");
+    require(values.size() == 2 && all_given(values), "--range", a.range, "LOW:HIGH");
+    style.range = {values[0], values[1]};
+  }
+  if (!a.camera.empty()) read_camera(a.camera, style.camera);
+  if (!a.frames.empty()) job.frames = read_frames(a.frames);
+  style.background = read_background(a.background);
+  style.tilt = a.tilt, style.arrows = a.arrows, style.chains = a.chains, style.copies = a.copies;
+  style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
+  job.movie = a.movie, job.output = a.output;
+  job.frames_per_second = a.fps, job.jobs = a.jobs;
+  if (a.radius != 0) job.radius = a.radius;
+  std::error_code error;
+  if (a.output.empty() && a.movie.empty())
+    job.output = std::filesystem::is_directory(job.source, error) ? job.source / "pictures" : "out/pictures";
+  return job;
+}
+
+void render(const RenderArguments& a) {
+  auto job = job_of(a);
+  // Stopped between two frames, so that no part of a movie stays behind.
+  std::signal(SIGINT, [](int) { stop_asked = 1; });
+  std::signal(SIGTERM, [](int) { stop_asked = 1; });
+  Progress reading("read", a.quiet), drawing("render", a.quiet);
+  job.progress = [&](const char* what, std::size_t done, std::size_t all) {
+    const bool reads = std::string_view(what) == "reading";
+    (reads ? reading : drawing).show(static_cast<double>(done) / static_cast<double>(all), fmt::format("{} of {}", done, all));
+    if (stop_asked) throw WorkError("stopped; the same command goes on from there");
+  };
+  const auto report = view::render_run(job);
+  if (a.quiet) return;
+  const auto kept = report.kept ? fmt::format(", {} were there", report.kept) : "";
+  const auto where = job.output.empty() ? job.movie : job.output;
+  fmt::print(stderr, "render: {} frame{} drawn{}; in {}\n", report.drawn, report.drawn == 1 ? "" : "s", kept, where.string());
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  auto* verb = app.add_subcommand("render", "Draw the frames of a run as pictures or a movie");
+  auto a = std::make_shared<RenderArguments>();
+  verb->add_option("run", a->run,
+                   "run directory; or VTK files of grains, chute's or another engine's: a directory, a time index "
+                   "(.pvd), one file, or a pattern in quotes")
+      ->required();
+  verb->add_option("-o,--output", a->output, "folder for NNNNNN.png; default RUN/pictures, none with --movie");
+  verb->add_option("--movie", a->movie, "make a movie: .mp4 (H.264), .gif or .png (animated); needs ffmpeg");
+  verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
+  verb->add_option("--color", a->color,
+                   "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; default the speed");
+  verb->add_option("--range", a->range, "colour range LOW:HIGH; default from the whole run");
+  verb->add_option("--colormap", a->map, "viridis, batlow, cividis, rdbu, or one of them with _r, reversed");
+  verb->add_option("--size", a->size, "pixels, WIDTHxHEIGHT; default 1920x1080");
+  verb->add_option("--frames", a->frames, "one frame, or FIRST:END:STEP with END not included");
+  verb->add_option("--camera", a->camera, "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all");
+  verb->add_option("--background", a->background, "white, dark or transparent")->capture_default_str();
+  verb->add_flag("--tilt", a->tilt, "turn the picture so that gravity points down");
+  verb->add_flag("--arrows", a->arrows, "velocity arrows");
+  verb->add_flag("--chains", a->chains, "contact forces as lines, wide where strong (needs the run's contacts)");
+  verb->add_flag("--copies", a->copies, "faded copies beyond the periodic ends");
+  verb->add_flag("--occlusion", a->occlusion, "ambient occlusion (in space)");
+  verb->add_option("--trails", a->trails, "draw where each grain was in the N frames before");
+  verb->add_flag("--no-spin", a->no_spin, "no spin marks on discs");
+  verb->add_flag("--bare", a->bare, "the grains alone: no colour bar, time, scale and gravity");
+  verb->add_option("--radius", a->radius, "radius of all grains, for files without");
+  verb->add_option("-j,--jobs", a->jobs, "processes that draw at once; the pictures are the same")->capture_default_str();
+  verb->add_flag("--quiet", a->quiet, "no progress");
+  verb->footer("Pictures that are there and were drawn from the same data in the same style are kept.\n"
+               "Example: chute render out/chute-2d --tilt --movie chute.mp4");
+  verb->callback([a] { render(*a); });
+}
+
+}  // namespace chute::app

@@ -1,0 +1,81 @@
+#include <catch2/catch.hpp>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "read/run_frames.hpp"
+#include "vtk_files.hpp"
+
+using namespace chute;
+using Catch::Matchers::Contains;
+using vtk_files::Folder;
+
+namespace {
+
+std::vector<std::string> names(const std::vector<read::FrameFile>& frames) {
+  std::vector<std::string> result;
+  for (const auto& frame : frames) result.push_back(frame.path.filename().string());
+  return result;
+}
+
+std::string complaint(const std::filesystem::path& path) {
+  try {
+    read::find_frames(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+void touch(const std::filesystem::path& path) {
+  std::filesystem::create_directories(path.parent_path());
+  write_atomically(path, "");
+}
+
+}  // namespace
+
+TEST_CASE("A run's time index") {
+  Folder folder;
+  touch(folder / "frames/000000.vtp");
+  touch(folder / "frames/000001.vtp");
+  touch(folder / "contacts/000001.vtp");
+  write_atomically(folder / "frames.pvd", R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="0.1"><Collection>
+  <DataSet timestep="0.5" group="" part="0" file="frames/000001.vtp"/>
+  <DataSet timestep="0" file="frames/000000.vtp"/>
+</Collection></VTKFile>)");
+  const auto frames = read::find_frames(folder.path);
+  REQUIRE(names(frames) == std::vector<std::string>{"000000.vtp", "000001.vtp"});
+  CHECK(frames[1].time == 0.5);
+  CHECK(frames[0].path == folder / "frames/000000.vtp");
+  CHECK(frames[0].contacts.empty());
+  CHECK(frames[1].contacts == folder / "contacts/000001.vtp");
+  CHECK(read::read_pvd(folder / "frames.pvd").size() == 2);
+}
+
+TEST_CASE("A wrong time index is one line") {
+  Folder folder;
+  const auto pvd = folder / "frames.pvd";
+  const auto expect = [&](const char* text, const char* what) {
+    write_atomically(pvd, text);
+    CHECK_THAT(complaint(pvd), Contains(pvd.string()) && Contains(what) && !Contains("\n"));
+  };
+  expect("<VTKFile><Collection><DataSet", ":1: not a time index");
+  expect("nonsense", ":1: not a time index");
+  expect("<VTKFile></VTKFile>", "no element Collection");
+  expect("<Collection><DataSet timestep='x' file='a.vtp'/></Collection>", "timestep \"x\" is not a number");
+  expect("<Collection><DataSet timestep='1'/></Collection>", "without a file");
+  expect("<Collection></Collection>", "no frames");
+}
+
+TEST_CASE("Files of other engines, in natural order") {
+  Folder folder;
+  for (const char* name : {"dump10.vtk", "dump9.vtk", "dump100.vtk", "dump9_boundingBox.vtk", "notes.txt", "other1.vtu"})
+    touch(folder / name);
+  CHECK(names(read::find_frames(folder / "dump*.vtk")) ==
+        std::vector<std::string>{"dump9.vtk", "dump10.vtk", "dump100.vtk"});
+  CHECK(names(read::find_frames(folder.path)) ==
+        std::vector<std::string>{"dump9.vtk", "dump10.vtk", "dump100.vtk", "other1.vtu"});
+  CHECK(names(read::find_frames(folder / "dump9.vtk")) == std::vector<std::string>{"dump9.vtk"});
+  CHECK_THAT(complaint(folder / "none*.vtk"), Contains("no frames"));
+  CHECK_THAT(complaint(folder / "none"), Contains("no such file"));
+}

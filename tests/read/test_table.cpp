@@ -1,0 +1,48 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "read/table.hpp"
+
+using namespace chute;
+using Catch::Matchers::Contains;
+
+namespace {
+template <class Work>
+std::string complaint(Work&& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+}  // namespace
+
+TEST_CASE("A table with comments, texts, numbers and gaps") {
+  const auto table = read::parse_table(
+      "# x: time, s\r\n#\n# made by hand\npanel,series,x,x_err\r\n\na,e_n=0.7,1.5,\n,\"say \"\"yes\"\", twice\",-2e-3,0.25\n", "t.csv");
+  CHECK(table.comments == std::vector<std::string>{"x: time, s", "", "made by hand"});
+  CHECK(table.header == std::vector<std::string>{"panel", "series", "x", "x_err"});
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.text("series") == std::vector<std::string>{"e_n=0.7", "say \"yes\", twice"});
+  CHECK(table.text("panel") == std::vector<std::string>{"a", ""});
+  CHECK(table.column("x") == std::vector<double>{1.5, -2e-3});
+  CHECK(std::isnan(table.column("x_err")[0]));
+  CHECK(table.column("x_err")[1] == 0.25);
+  CHECK(table.has("x"));
+  CHECK_FALSE(table.has("y"));
+}
+
+TEST_CASE("What is wrong with a table is said with the line") {
+  const auto parse = [](const char* text) { return complaint([&] { read::parse_table(text, "t.csv"); }); };
+  CHECK(parse("# c\nx,y\n1,2\n1,2,3\n") == "t.csv:4: 3 cells, but the header names 2");
+  CHECK(parse("x,y\n1\n") == "t.csv:2: 1 cells, but the header names 2");
+  CHECK(parse("x,x\n1,2\n") == "t.csv:1: two columns are called \"x\"");
+  CHECK_THAT(parse("x\n\"no end\n"), Contains("t.csv:2: a quoted cell"));
+  CHECK_THAT(parse("# only\n"), Contains("t.csv: no header line"));
+  const auto table = read::parse_table("x,y\n1,2\n3,4z\n", "t.csv");
+  CHECK(complaint([&] { table.column("y"); }) == "t.csv:3: y: \"4z\" is not a number");
+  CHECK_THAT(complaint([&] { table.column("z"); }), Contains("no column \"z\", there are: x, y"));
+  CHECK_THAT(complaint([] { read::read_table("/nowhere/t.csv"); }), Contains("cannot read"));
+}
