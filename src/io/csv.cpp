@@ -10,7 +10,11 @@ namespace chute::io {
 
 Csv::Csv(std::vector<std::string> comments, std::vector<std::string_view> columns)
     : columns_(columns.size()) {
-  for (const auto& comment : comments) text_ += "# " + comment + "\n";
+  for (auto& comment : comments) {
+    for (char& c : comment)
+      if (c == '\n' || c == '\r') c = ' ';  // a title may have several lines
+    text_ += "# " + comment + "\n";
+  }
   text_ += fmt::format("{}\n", fmt::join(columns, ","));
 }
 

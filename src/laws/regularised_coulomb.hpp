@@ -3,6 +3,7 @@
 
 #include "core/vec.hpp"
 #include "laws/mass_scaling.hpp"
+#include "laws/pair.hpp"
 
 namespace chute::laws {
 
@@ -10,7 +11,7 @@ namespace chute::laws {
 struct Frictionless {
   static constexpr bool acts = false;
   template <int T>
-  Vec<T> operator()(const Vec<T>&, double, double) const {
+  Vec<T> operator()(const Vec<T>&, double, Pair) const {
     return {};
   }
 };
@@ -27,14 +28,14 @@ struct RegularisedCoulomb {
   double friction = 0;   ///< μ
   MassScaling scaling = MassScaling::none;
 
-  double effective_viscosity(double m_eff) const {
-    return scaling == MassScaling::none ? viscosity : viscosity * m_eff;
+  double effective_viscosity(Pair p) const {
+    return scaling == MassScaling::none ? viscosity : viscosity * p.m_eff;
   }
 
   /// Force on the second grain of a contact whose surfaces slip at `slip` = v_s, under the normal force F_n.
   template <int T>
-  Vec<T> operator()(const Vec<T>& slip, double normal_force, double m_eff) const {
-    const double limit = friction * std::abs(normal_force), gamma = effective_viscosity(m_eff);
+  Vec<T> operator()(const Vec<T>& slip, double normal_force, Pair p) const {
+    const double limit = friction * std::abs(normal_force), gamma = effective_viscosity(p);
     if constexpr (T == 1) {
       const double viscous = gamma * std::abs(slip[0]);
       return {{std::copysign(viscous < limit ? viscous : limit, -slip[0])}};

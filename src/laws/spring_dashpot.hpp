@@ -1,17 +1,12 @@
 #pragma once
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "laws/mass_scaling.hpp"
+#include "laws/normal_force.hpp"
+#include "laws/pair.hpp"
 
 namespace chute::laws {
-
-/// A normal force and the power that its dissipative part takes. Positive forces push the grains apart.
-struct NormalForce {
-  double total;      ///< F_n
-  double loss_rate;  ///< dissipated energy per time
-};
 
 /// Linear spring with linear damping, thesis (2.8) = (3.1), here with repulsion positive:
 ///
@@ -21,14 +16,19 @@ struct NormalForce {
 /// ends when ξ returns to 0, so that (3.2), (3.3) hold exactly. Damping is either given (γ_n, subject to
 /// `mass_scaling`) or derived for each pair so that the pair has the asked restitution:
 /// γ_n = −2 ln e_n √(k_n m_eff / (π² + ln² e_n)), from (3.2) and (3.3).
+///
+/// Where attraction is not allowed (laws::Contact::attraction), the grains part when the force vanishes and drift
+/// until ξ = 0. They lose less then; `clipped_restitution` is the closed form, and `from_restitution` takes the
+/// damping that gives the asked restitution in that case.
 class SpringDashpot {
  public:
-  static SpringDashpot from_restitution(double stiffness, double e_n) {
+  static SpringDashpot from_restitution(double stiffness, double e_n, bool attraction = true) {
     const double log_e = std::log(e_n);
     SpringDashpot law;
     law.stiffness_ = stiffness;
     law.damping_per_root_mass_ =
-        -2 * log_e * std::sqrt(stiffness / (std::numbers::pi * std::numbers::pi + log_e * log_e));
+        attraction ? -2 * log_e * std::sqrt(stiffness / (std::numbers::pi * std::numbers::pi + log_e * log_e))
+                   : 2 * clipped_damping_ratio(e_n) * std::sqrt(stiffness);
     return law;
   }
   static SpringDashpot from_damping(double stiffness, double damping, MassScaling scaling) {
@@ -38,33 +38,61 @@ class SpringDashpot {
     return law;
   }
 
-  double stiffness(double m_eff) const { return stiffness_ + stiffness_per_mass_ * m_eff; }
-  double damping(double m_eff) const {
-    return damping_ + damping_per_root_mass_ * std::sqrt(m_eff) + damping_per_mass_ * m_eff;
+  bool needs_radius() const { return false; }
+  double stiffness(Pair p) const { return stiffness_ + stiffness_per_mass_ * p.m_eff; }
+  PairCoefficient stiffness_coefficient() const { return {stiffness_, stiffness_per_mass_, 0, 0}; }
+  double damping(Pair p) const {
+    return damping_ + damping_per_root_mass_ * std::sqrt(p.m_eff) + damping_per_mass_ * p.m_eff;
   }
 
   /// F_n of a contact with overlap `xi` that closes at the rate `dxi` = dξ/dt = −v_n.
-  NormalForce operator()(double xi, double dxi, double m_eff) const {
-    const double viscous = damping(m_eff) * dxi;
-    return {stiffness(m_eff) * xi + viscous, viscous * dxi};
+  NormalForce operator()(double xi, double dxi, Pair p) const {
+    const double viscous = damping(p) * dxi;
+    return {stiffness(p) * xi + viscous, viscous * dxi};
   }
 
   /// Energy stored at overlap `xi`.
-  double energy(double xi, double m_eff) const { return 0.5 * stiffness(m_eff) * xi * xi; }
+  double energy(double xi, Pair p) const { return 0.5 * stiffness(p) * xi * xi; }
 
   /// Duration of a collision, (2.9) = (3.3). NaN if the damping is over-critical: the grains then never part.
-  double contact_time(double m_eff) const {
-    const double decay = damping(m_eff) / (2 * m_eff);
-    return std::numbers::pi / std::sqrt(stiffness(m_eff) / m_eff - decay * decay);
+  double contact_time(Pair p) const {
+    const double decay = damping(p) / (2 * p.m_eff);
+    return std::numbers::pi / std::sqrt(stiffness(p) / p.m_eff - decay * decay);
   }
   /// Coefficient of normal restitution, (3.2).
-  double restitution(double m_eff) const {
-    return std::exp(-damping(m_eff) / (2 * m_eff) * contact_time(m_eff));
+  double restitution(Pair p) const { return std::exp(-damping(p) / (2 * p.m_eff) * contact_time(p)); }
+
+  /// A head-on impact with the given speed; the deepest overlap is ξ_0 = v √(m/k) exp(−x/√(1−x²) arccos x) with the
+  /// damping ratio x, the equality in (3.4) for x = 0. With over-critical damping the grains never part.
+  NormalImpact impact(double speed, Pair p) const {
+    const double ratio = damping(p) / (2 * std::sqrt(stiffness(p) * p.m_eff));
+    const double free = speed * std::sqrt(p.m_eff / stiffness(p));
+    if (!(ratio < 1)) return {0, INFINITY, free * std::exp(-1.0)};  // at the critical damping, else a bound
+    const double deepest = free * std::exp(-ratio / std::sqrt(1 - ratio * ratio) * std::acos(ratio));
+    return {restitution(p), contact_time(p), deepest};
+  }
+
+  /// Restitution with the attraction clipped, for a damping ratio x = γ_n / (2 √(k_n m_eff)) below 1. The force is 0
+  /// at ω t = atan2(2 x w, 2 x² − 1), with w = √(1 − x²) the frequency in units of √(k_n/m_eff).
+  static double clipped_restitution(double ratio) {
+    const double w = std::sqrt(1 - ratio * ratio), phase = std::atan2(2 * ratio * w, 2 * ratio * ratio - 1);
+    return std::exp(-ratio / w * phase) * (ratio / w * std::sin(phase) - std::cos(phase));
   }
 
  private:
   double stiffness_ = 0, stiffness_per_mass_ = 0;
   double damping_ = 0, damping_per_root_mass_ = 0, damping_per_mass_ = 0;
+
+  /// Inverse of clipped_restitution, which falls from 1 to e^-2 at ratio 1: halving to the last bit. Restitutions
+  /// below e^-2 = 0.135 need over-critical damping and give the ratio 1.
+  static double clipped_damping_ratio(double e_n) {
+    double low = 0, high = 1;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = (low + high) / 2;
+      (clipped_restitution(middle) > e_n ? low : high) = middle;
+    }
+    return (low + high) / 2;
+  }
 };
 
 }  // namespace chute::laws

@@ -30,7 +30,7 @@ Profiles::Profiles(double length, double bin, double from, double until)
     : length_(length), bin_(bin), from_(from), until_(until) {}
 
 void Profiles::sample(const GrainsView& grains) {
-  const double part = (grains.time - from_) / (until_ - from_);
+  const double part = until_ > from_ ? (grains.time - from_) / (until_ - from_) : 0;  // 0/0 is no block
   const auto block = static_cast<std::size_t>(std::clamp(part * blocks, 0.0, blocks - 1.0));
   auto& bins = sums_[block];
   ++samples_[block];

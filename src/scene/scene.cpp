@@ -195,7 +195,10 @@ double Scene::mean_diameter() const {
 double Scene::mean_mass() const {
   return grains.density * std::numbers::pi / 6 * std::pow(mean_diameter(), 3);
 }
-double Scene::reference_mass() const { return grains.count > 1 ? mean_mass() / 2 : mean_mass(); }
+laws::Pair Scene::reference_pair() const {
+  const double R = mean_diameter() / 2, r = bed.diameter / 2;
+  return grains.count > 1 ? laws::Pair(mean_mass() / 2, R / 2) : laws::Pair(mean_mass(), R * r / (R + r));
+}
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings) {
   toml::table table = parse_toml(text, name);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "laws/list.hpp"
+#include "scene/contact_spec.hpp"
 
 /// A scene: what a physicist writes down to define a run. Lengths, times and masses are in SI or in reduced units
 /// (m = g = d = 1, with d the diameter of a bed grain). Reading fills every default in, so that the written-back
@@ -56,25 +56,6 @@ struct GrainsSpec {
   Start start;
 };
 
-struct NormalSpec {
-  enum class Law { spring_dashpot } law = Law::spring_dashpot;
-  double stiffness = 0;
-  std::optional<double> restitution, damping;
-  laws::MassScaling mass_scaling = laws::MassScaling::none;
-};
-
-struct ShearSpec {
-  enum class Law { coulomb_viscous, frictionless } law = Law::coulomb_viscous;
-  double viscosity = 0, friction = 0;
-  laws::MassScaling mass_scaling = laws::MassScaling::none;
-};
-
-struct ContactSpec {
-  NormalSpec normal;
-  ShearSpec tangential;
-  laws::Contact laws() const;
-};
-
 struct EngineSpec {
   enum class Method { soft } method = Method::soft;
   enum class Integrator { gear5, verlet } integrator = Integrator::gear5;
@@ -120,7 +101,8 @@ struct Scene {
   double mean_diameter() const;  ///< of the moving grains
   double mean_mass() const;
   /// Reduced mass of the contact that sets the time step: two mean grains, or the only grain with the bed.
-  double reference_mass() const;
+  double reference_mass() const { return reference_pair().m_eff; }
+  laws::Pair reference_pair() const;
 };
 
 /// Reads a scene file; `settings` are `key.path=value` from the command line. InputError `FILE:LINE: key: …` on

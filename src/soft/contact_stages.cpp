@@ -1,5 +1,9 @@
 #include "soft/contact_stages.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace chute::soft {
 namespace {
 
@@ -102,23 +106,43 @@ struct GeometryKernel {
 template <class Law>
 struct NormalKernel {
   Law law;
-  const double *overlap, *closing, *m_eff;
+  double least;  // the force is clipped there: 0 without attraction, else −∞
+  const double *overlap, *closing, *m_eff, *r_eff;
   std::size_t count;
   double *force, *loss;
 
   void operator()() const {
     const Law f = law;
-    const auto *xi = overlap, *dxi = closing, *m = m_eff;
+    const double floor = least;
+    const auto *xi = overlap, *dxi = closing, *m = m_eff, *R = r_eff;
     const auto n = count;
     auto *force_out = force, *loss_out = loss;
     CHUTE_VECTOR_LOOP
     for (std::size_t c = 0; c < n; ++c) {
-      const auto result = f(xi[c], dxi[c], m[c]);
-      force_out[c] = result.total;
-      loss_out[c] = result.loss_rate;
+      const auto result = f(xi[c], dxi[c], laws::Pair(m[c], R[c]));
+      const double clipped = result.total < floor ? floor : result.total;
+      force_out[c] = clipped;
+      loss_out[c] = result.loss_rate + (clipped - result.total) * dxi[c];  // what the spring gives is lost
     }
   }
 };
+
+/// The same for a law with a memory. Such laws branch and call functions; there is nothing to vectorise.
+template <class Law>
+void remembering_normal(const Law& law, std::array<double*, static_cast<std::size_t>(Law::memory)> columns,
+                        double inverse_duration, const double* overlap, const double* closing,
+                        const double* m_eff, const double* r_eff, std::size_t count, double* force,
+                        double* loss, double* stored) {
+  for (std::size_t c = 0; c < count; ++c) {
+    std::array<double, static_cast<std::size_t>(Law::memory)> memory;
+    for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = columns[k][c];
+    const auto result = law(overlap[c], closing[c], laws::Pair(m_eff[c], r_eff[c]), memory);
+    for (std::size_t k = 0; k < memory.size(); ++k) columns[k][c] = memory[k];
+    force[c] = result.total;
+    loss[c] = result.loss * inverse_duration;
+    stored[c] = law.energy(overlap[c], laws::Pair(m_eff[c], r_eff[c]), memory);
+  }
+}
 
 template <class Law, int T>
 struct ShearKernel {
@@ -147,6 +171,44 @@ struct ShearKernel {
   }
 };
 
+/// What the surfaces of each contact do, for laws with a memory. What they take is the work done against them minus
+/// the change of what is stored: work by the mean of the forces at the ends of the step, which for a spring is exact.
+/// A force that is there at once when a contact begins or ends acts for half a step before or after, as it does in the
+/// integration.
+template <class Law, int D>
+void remembering_shear(const Law& law, ContactMemory<D>& memory, double duration, Contacts<D>& contacts) {
+  constexpr int T = turns<D>;
+  const double inverse_duration = duration > 0 ? 1 / duration : 0;
+  for (std::size_t c = 0; c < contacts.count; ++c) {
+    laws::Slip<T> slip{{}, contacts.normal_force[c], contacts.overlap[c],
+                       laws::Pair(contacts.m_eff[c], contacts.r_eff[c])};
+    Vec<T> before, way;
+    for (int k = 0; k < T; ++k) {
+      slip.way[k] = memory.way()[k][c];
+      way[k] = memory.fresh(c) ? duration * contacts.slip[k][c] : slip.way[k];
+      before[k] = memory.previous_force(k)[c];
+    }
+    typename Law::template Memory<T> own;
+    for (int v = 0; v < Law::vectors; ++v)
+      for (int k = 0; k < T; ++k) own.vector[static_cast<std::size_t>(v)][k] = memory.vector_column(v, k)[c];
+    for (int s = 0; s < Law::scalars; ++s)
+      own.scalar[static_cast<std::size_t>(s)] = memory.scalar_column(s)[c];
+
+    const Vec<T> force = law(slip, own);
+    const double stored = law.energy(slip, own);
+    const double taken = -0.5 * dot(before + force, way) - (stored - memory.stored_column()[c]);
+
+    for (int v = 0; v < Law::vectors; ++v)
+      for (int k = 0; k < T; ++k) memory.vector_column(v, k)[c] = own.vector[static_cast<std::size_t>(v)][k];
+    for (int s = 0; s < Law::scalars; ++s)
+      memory.scalar_column(s)[c] = own.scalar[static_cast<std::size_t>(s)];
+    for (int k = 0; k < T; ++k) memory.previous_force(k)[c] = contacts.shear_force[k][c] = force[k];
+    memory.stored_column()[c] = stored;
+    contacts.stored[c] += stored;
+    contacts.shear_loss[c] = taken * inverse_duration;
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -157,12 +219,13 @@ void Contacts<D>::reserve(std::size_t most) {
   for (auto& a : normal) a.resize(most);
   for (auto& a : slip) a.resize(most);
   for (auto& a : shear_force) a.resize(most);
-  for (auto* a : {&overlap, &closing, &m_eff, &normal_force, &normal_loss, &shear_loss}) a->resize(most);
+  for (auto* a : {&overlap, &closing, &m_eff, &r_eff, &normal_force, &normal_loss, &shear_loss, &stored})
+    a->resize(most);
 }
 
 template <int D>
-ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa)
-    : domain_(domain), laws_(laws), isa_(isa) {}
+ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa, SlipRule rule)
+    : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
 
 template <int D>
 void ContactStages<D>::find_touching(const search::PairList& pairs, const Grains<D>& grains,
@@ -193,26 +256,61 @@ void ContactStages<D>::geometry(const Grains<D>& grains, Contacts<D>& contacts) 
                                      0.5 * domain_.length, contacts.count, pointers(contacts.normal),
                                      contacts.overlap.data(), contacts.closing.data(), contacts.m_eff.data(),
                                      pointers(contacts.slip)});
+  if (!needs_radius_) return;
+  for (std::size_t c = 0; c < contacts.count; ++c) {
+    const double a = grains.radius[static_cast<std::size_t>(contacts.i[c])];
+    const double b = grains.radius[static_cast<std::size_t>(contacts.j[c])];
+    contacts.r_eff[c] = a * b / (a + b);
+  }
 }
 
 template <int D>
 void ContactStages<D>::evaluate(const search::PairList& pairs, const Grains<D>& grains,
-                                Contacts<D>& contacts) {
+                                Contacts<D>& contacts, double duration) {
   find_touching(pairs, grains, contacts);
   geometry(grains, contacts);
+  if (memory_.needed()) {
+    memory_.carry(grains, contacts, duration);
+    std::fill_n(contacts.stored.begin(), contacts.count, 0.0);
+  }
+  normal_forces(contacts, duration);
+  shear_forces(contacts, duration);
+}
+
+template <int D>
+void ContactStages<D>::normal_forces(Contacts<D>& contacts, double duration) {
+  const double inverse_duration = duration > 0 ? 1 / duration : 0;
   std::visit(
       [&]<class Law>(const Law& law) {
-        run_kernel(isa_, NormalKernel<Law>{law, contacts.overlap.data(), contacts.closing.data(),
-                                           contacts.m_eff.data(), contacts.count,
-                                           contacts.normal_force.data(), contacts.normal_loss.data()});
+        const double *xi = contacts.overlap.data(), *dxi = contacts.closing.data();
+        const double *m = contacts.m_eff.data(), *R = contacts.r_eff.data();
+        double *force = contacts.normal_force.data(), *loss = contacts.normal_loss.data();
+        if constexpr (laws::NormalWithMemory<Law>) {
+          std::array<double*, static_cast<std::size_t>(Law::memory)> columns;
+          for (int k = 0; k < Law::memory; ++k)
+            columns[static_cast<std::size_t>(k)] = memory_.normal_column(k);
+          remembering_normal(law, columns, inverse_duration, xi, dxi, m, R, contacts.count, force, loss,
+                             contacts.stored.data());
+        } else {
+          const double least = laws_.attraction ? -std::numeric_limits<double>::infinity() : 0.0;
+          run_kernel(isa_, NormalKernel<Law>{law, least, xi, dxi, m, R, contacts.count, force, loss});
+        }
       },
       laws_.normal);
+}
+
+template <int D>
+void ContactStages<D>::shear_forces(Contacts<D>& contacts, double duration) {
   const std::array<Array, turns<D>>& slip = contacts.slip;
   std::visit(
       [&]<class Law>(const Law& law) {
-        run_kernel(isa_, ShearKernel<Law, turns<D>>{
-                             law, pointers(slip), contacts.normal_force.data(), contacts.m_eff.data(),
-                             contacts.count, pointers(contacts.shear_force), contacts.shear_loss.data()});
+        if constexpr (laws::ShearWithMemory<Law>)
+          remembering_shear<Law, D>(law, memory_, duration, contacts);
+        else
+          run_kernel(isa_, ShearKernel<Law, turns<D>>{law, pointers(slip), contacts.normal_force.data(),
+                                                      contacts.m_eff.data(), contacts.count,
+                                                      pointers(contacts.shear_force),
+                                                      contacts.shear_loss.data()});
       },
       laws_.shear);
 }
@@ -247,11 +345,14 @@ template <int D>
 double ContactStages<D>::elastic_energy(const Contacts<D>& contacts) const {
   double sum = 0;
   std::visit(
-      [&](const auto& law) {
-        for (std::size_t c = 0; c < contacts.count; ++c)
-          sum += law.energy(contacts.overlap[c], contacts.m_eff[c]);
+      [&]<class Law>(const Law& law) {
+        if constexpr (!laws::NormalWithMemory<Law>)
+          for (std::size_t c = 0; c < contacts.count; ++c)
+            sum += law.energy(contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c]));
       },
       laws_.normal);
+  if (memory_.needed())
+    for (std::size_t c = 0; c < contacts.count; ++c) sum += contacts.stored[c];
   return sum;
 }
 

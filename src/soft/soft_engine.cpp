@@ -19,14 +19,15 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
     : setup_(setup),
       grains_(std::move(grains)),
       list_(setup.domain, setup.skins, setup.search, setup.isa),
-      stages_(setup.domain, setup.laws, setup.isa),
+      stages_(setup.domain, setup.laws, setup.isa,
+              setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa) {
   for (auto& f : force_) f.resize(grains_.size());
   for (auto& t : torque_) t.resize(grains_.size());
   for (int k = 0; k < D; ++k)
     start_place_[k].assign(grains_.position[k].begin(),
                            grains_.position[k].begin() + static_cast<std::ptrdiff_t>(grains_.moving));
-  forces();
+  forces(0);
   integrator_.start(grains_, force_, torque_);
   account_.start = energy().stored();
 }
@@ -37,7 +38,7 @@ void SoftEngine<D>::advance_to(std::int64_t step) {
   integrator_.predict(grains_);
   for (;;) {
     ++step_;
-    forces();
+    forces(setup_.time_step);
     account(setup_.time_step);
     if (collecting_) find_impacts();
     if (step_ == step) break;
@@ -48,11 +49,11 @@ void SoftEngine<D>::advance_to(std::int64_t step) {
 }
 
 template <int D>
-void SoftEngine<D>::forces() {
+void SoftEngine<D>::forces(double duration) {
   for (auto& f : force_) std::fill(f.begin(), f.end(), 0.0);
   for (auto& t : torque_) std::fill(t.begin(), t.end(), 0.0);
   try {
-    stages_.evaluate(list_.near(grains_), grains_, contacts_);
+    stages_.evaluate(list_.near(grains_), grains_, contacts_, duration);
   } catch (const NotANumber& error) {
     leave_physics(error.grain, "its place is not a number: the time step is too long for these forces");
   }
@@ -69,7 +70,7 @@ void SoftEngine<D>::account(double duration) {
     if (contacts_.overlap[c] > deepest) deepest = contacts_.overlap[c], where = c;
   }
   account_.normal_loss += duration * normal;
-  account_.shear_loss += duration * shear;
+  account_.shear_loss += duration * shear + stages_.memory().released();
   if (deepest == 0) return;
   const auto i = static_cast<std::size_t>(contacts_.i[where]), j = static_cast<std::size_t>(contacts_.j[where]);
   const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
@@ -193,7 +194,8 @@ template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   auto& g = self.grains_;
   archive(g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
-          self.account_.start, self.account_.normal_loss, self.account_.shear_loss, self.step_, self.touched_);
+          self.account_.start, self.account_.normal_loss, self.account_.shear_loss, self.step_, self.touched_,
+          self.stages_.memory());
 }
 
 template <int D>
@@ -206,7 +208,11 @@ template <int D>
 void SoftEngine<D>::restore(std::istream& in) {
   cereal::PortableBinaryInputArchive archive(in);
   transfer(archive, *this);
-  forces();  // contacts and forces of this instant, for whoever looks before the next step
+  // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember is from
+  // the forces of the last step, at the predicted places; it must not see the corrected ones.
+  const auto remembered = stages_.memory();
+  forces(0);
+  stages_.memory() = remembered;
 }
 
 template class SoftEngine<2>;

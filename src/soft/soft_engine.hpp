@@ -60,7 +60,7 @@ class SoftEngine final : public Engine {
   std::vector<Impact> impacts_;
   std::vector<std::pair<std::int32_t, std::int32_t>> touched_;  // contacts of the previous step
 
-  void forces();
+  void forces(double duration);
   void account(double duration);
   void find_impacts();
   Impact impact(std::size_t contact) const;

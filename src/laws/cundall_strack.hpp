@@ -1,0 +1,65 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "laws/slip.hpp"
+
+namespace chute::laws {
+
+/// A tangential spring of stiffness k that is cut off at the Coulomb limit L = μ |F_n|: the shape that (3.13) and
+/// (3.22) share. The spring's length ζ = ∫ v_s dt (3.14) is the memory.
+///
+/// Without the cap the cut-off acts on the force only and ζ goes on growing while the contact slips. F_s is then a
+/// function of ζ and F_n: at constant F_n it is conservative even where it slips, and gives back on the way home all
+/// that it took, long after the slip has turned round; where F_n rises in between it gives back more than it took.
+/// With the cap (3.25), |ζ| ≤ L / k after each step, slipping dissipates and nothing is ever gained.
+struct CutOffSpring {
+  double friction = 0;  ///< μ
+  bool cap = true;      ///< (3.25)
+
+  template <int T>
+  Vec<T> force(const Slip<T>& slip, double stiffness, Vec<T>& zeta) const {
+    zeta = zeta + slip.way;
+    const double limit = friction * std::abs(slip.normal_force), length = magnitude(zeta);
+    if (stiffness * length <= limit) return -stiffness * zeta;
+    const Vec<T> force = (-limit / length) * zeta;
+    if (cap) zeta = stiffness > 0 ? (-1 / stiffness) * force : Vec<T>{};
+    return force;
+  }
+
+  /// What the spring gives back on the way to ζ = 0 at the present F_n: ½ k ζ², and L |ζ| beyond the cut-off.
+  template <int T>
+  double energy(const Slip<T>& slip, double stiffness, const Vec<T>& zeta) const {
+    const double limit = friction * std::abs(slip.normal_force), length = magnitude(zeta);
+    return stiffness * length <= limit ? 0.5 * stiffness * length * length
+                                       : limit * length - 0.5 * limit * limit / stiffness;
+  }
+};
+
+/// Tangential spring after Cundall and Strack, thesis (3.13), with or without the cap (3.25):
+///
+///     F_s = −min(k_s |ζ|, μ |F_n|) ζ / |ζ|,    ζ = ∫ v_s dt (3.14)
+struct CundallStrack {
+  static constexpr bool acts = true;
+  static constexpr int vectors = 1, scalars = 0;
+  template <int T>
+  using Memory = SlipMemory<T, vectors, scalars>;
+
+  PairCoefficient stiffness;  ///< k_s, N/m
+  CutOffSpring spring;
+
+  bool needs_radius() const { return stiffness.needs_radius(); }
+  /// Stiffness while the overlap is `xi`.
+  double stiffness_at(double, Pair p) const { return stiffness(p); }
+
+  template <int T>
+  Vec<T> operator()(const Slip<T>& slip, Memory<T>& memory) const {
+    return spring.force(slip, stiffness(slip.pair), memory.vector[0]);
+  }
+  template <int T>
+  double energy(const Slip<T>& slip, const Memory<T>& memory) const {
+    return spring.energy(slip, stiffness(slip.pair), memory.vector[0]);
+  }
+};
+
+}  // namespace chute::laws
