@@ -10,8 +10,8 @@
 /// Back ends: the same list as pixels, PDF or SVG.
 namespace chute::plot {
 
-/// What the file says about itself: "Title", "Author", "Subject", "Creator" (the program), and any other
-/// keyword.
+/// What the file says about itself: Title, Author, Description (or Subject), Software (or Creator: what made
+/// it), Source, and any other word. PDF has no place for the others: they become its keywords.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 inline constexpr double default_dpi = 300;
@@ -30,5 +30,8 @@ void draw_png(const DisplayList& list, const std::filesystem::path& path, double
 /// Exact page size; fonts embedded and subset; text can be selected and searched.
 void draw_pdf(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata = {});
 void draw_svg(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata = {});
+
+/// Names and versions of the libraries that pixels depend on, for whoever stores pictures.
+std::string drawing_versions();
 
 }  // namespace chute::plot

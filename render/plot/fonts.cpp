@@ -113,6 +113,11 @@ Fonts::~Fonts() {
   FT_Done_FreeType(files_->library);
 }
 
+std::string Fonts::versions() {
+  return fmt::format("FreeType {}.{}.{}, HarfBuzz {}", FREETYPE_MAJOR, FREETYPE_MINOR, FREETYPE_PATCH,
+                     hb_version_string());
+}
+
 void* Fonts::native(Face face) { return files_->faces[static_cast<std::size_t>(face)]; }
 
 std::uint32_t Fonts::glyph(Face face, char32_t character) {

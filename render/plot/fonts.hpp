@@ -35,6 +35,8 @@ class Fonts {
 
   /// The file that a face is read from, for back ends that embed it.
   static std::string file(Face face);
+  /// "FreeType 2.12.1, HarfBuzz 6.0.0"
+  static std::string versions();
   /// The FreeType face (FT_Face), for the back ends' own libraries.
   void* native(Face face);
 

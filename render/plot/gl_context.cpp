@@ -54,4 +54,14 @@ Context::~Context() {
   OSMesaDestroyContext(context_);
 }
 
+std::string Context::version() const {
+  const auto text = [&](GLenum what) {
+    const auto* bytes = call.glGetString(what);
+    return std::string(bytes ? reinterpret_cast<const char*>(bytes) : "unknown");
+  };
+  const auto version = text(GL_VERSION);
+  const auto mesa = version.find("Mesa");
+  return (mesa == std::string::npos ? version : version.substr(mesa)) + ", " + text(GL_RENDERER);
+}
+
 }  // namespace chute::plot::gl

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 /// OpenGL 3.3 core without a display: Mesa's software renderer. Included by back-end sources only.
@@ -53,6 +54,7 @@ namespace chute::plot::gl {
   X(PFNGLDRAWARRAYSPROC_, glDrawArrays)                            \
   X(PFNGLREADPIXELSPROC_, glReadPixels)                            \
   X(PFNGLPIXELSTOREIPROC_, glPixelStorei)                          \
+  X(PFNGLGETSTRINGPROC_, glGetString)                              \
   X(PFNGLGETERRORPROC_, glGetError)
 
 // GL 1.x has no such types in Mesa's header; they are looked up like the rest, so that no other libGL answers
@@ -69,6 +71,7 @@ using PFNGLSTENCILOPPROC_ = void (*)(GLenum, GLenum, GLenum);
 using PFNGLDRAWARRAYSPROC_ = void (*)(GLenum, GLint, GLsizei);
 using PFNGLREADPIXELSPROC_ = void (*)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*);
 using PFNGLPIXELSTOREIPROC_ = void (*)(GLenum, GLint);
+using PFNGLGETSTRINGPROC_ = const GLubyte* (*)(GLenum);
 using PFNGLGETERRORPROC_ = GLenum (*)();
 
 struct Functions {
@@ -87,6 +90,7 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   Functions call;
+  std::string version() const;  ///< "Mesa 22.3.6, llvmpipe (LLVM 15.0.6, 128 bits)"
 
  private:
   OSMesaContext context_ = nullptr, before_ = nullptr;

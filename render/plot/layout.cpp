@@ -68,6 +68,7 @@ class Layouter {
   std::vector<LegendPlan> legends_;
   std::vector<Rect> frames_;
   std::vector<Margins> row_margins_, column_margins_;
+  std::vector<double> axes_top_;  // what ticks and factors of each panel need above its frame
   Place label_place_ = Place::top_left;
   bool settled_ = false;
 
@@ -81,16 +82,11 @@ class Layouter {
     const auto& panels = figure_.panels;
     std::vector<Extents> extents;
     for (const auto& p : panels) extents.push_back(extents_of(p));
-    const auto merged = [](Extent a, const Extent& b) {
-      a.low = std::min(a.low, b.low), a.high = std::max(a.high, b.high);
-      a.from_zero |= b.from_zero, a.pad_low |= b.pad_low, a.pad_high |= b.pad_high;
-      return a;
-    };
     for (std::size_t i = 0; i < panels.size(); ++i) {
       Extent ex = extents[i].x, ey = extents[i].y;
       for (std::size_t k = 0; k < panels.size(); ++k) {
-        if (figure_.share_x && column(k) == column(i)) ex = merged(ex, extents[k].x);
-        if (figure_.share_y && row(k) == row(i)) ey = merged(ey, extents[k].y);
+        if (figure_.share_x && column(k) == column(i)) ex.include(extents[k].x);
+        if (figure_.share_y && row(k) == row(i)) ey.include(extents[k].y);
       }
       axes_.push_back(std::make_unique<Axes>(panels[i], span_of(panels[i].x, ex), span_of(panels[i].y, ey),
                                              sizes_, !figure_.share_x || !has_below(i),
@@ -160,6 +156,7 @@ class Layouter {
   void solve() {
     const auto n = figure_.panels.size();
     const double margin = look_.margin, between = 0.9 * look_.tick_size;
+    axes_top_.assign(n, 0);
     column_margins_.assign(static_cast<std::size_t>(columns_), {});
     row_margins_.assign(static_cast<std::size_t>(rows_), {});
     double width = page_.width / columns_ * 0.8,
@@ -169,6 +166,7 @@ class Layouter {
       const double old_width = width, old_height = height;
       for (std::size_t i = 0; i < n; ++i) {
         Margins m = axes_[i]->fit(width, height);
+        axes_top_[i] = m.top;
         m.top += heading_height(figure_.panels[i]) + above_frame(static_cast<int>(i), width);
         Margins &c = column_margins_[static_cast<std::size_t>(column(i))],
                 &r = row_margins_[static_cast<std::size_t>(row(i))];
@@ -304,8 +302,7 @@ class Layouter {
         return;
       }
       const auto i = static_cast<std::size_t>(legend.panel);
-      const double heading = heading_height(figure_.panels[i]);
-      const double top = frames_[i].top - row_margins_[static_cast<std::size_t>(row(i))].top + heading;
+      const double top = frames_[i].top - axes_top_[i] - sizes_.gap - legend.block.height(legend.columns);
       legend.block.draw(out.list, {frames_[i].left, top}, legend.columns, legend.panel, out.boxes);
       return;
     }

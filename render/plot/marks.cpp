@@ -33,6 +33,7 @@ void check_lengths(const Series& s) {
 std::vector<double> bin_edges(const std::vector<double>& x) {
   std::vector<double> edges;
   const std::size_t n = x.size();
+  if (n == 0) return {};
   if (n == 1) return {x[0] - 0.5, x[0] + 0.5};
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (i == 0) edges.push_back(1.5 * x[0] - 0.5 * x[1]);
@@ -253,33 +254,43 @@ std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look&
   return looks;
 }
 
+namespace {
+
+/// What the series asks of the axes; what a given range of either axis hides asks for nothing.
+void include_series(Extents& e, const Plot& plot, const Series& s) {
+  const bool bins = has_bins(s.kind), marker = has_markers(s.kind) || s.kind == Kind::dots;
+  const auto shown = [](const Axis& axis, double v) {
+    return std::isfinite(v) && (axis.scale == Scale::linear || v > 0) && !(axis.min && v < *axis.min) &&
+           !(axis.max && v > *axis.max);
+  };
+  const auto include_error = [](Extent& extent, const Axis& axis, double v, double error) {
+    if (!(error > 0)) return;
+    extent.include(v - error, axis.scale);
+    extent.include(v + error, axis.scale);
+  };
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (!shown(plot.x, s.x[i]) || !shown(plot.y, s.y[i])) continue;
+    e.x.include(s.x[i], plot.x.scale, marker);
+    e.y.include(s.y[i], plot.y.scale, marker);
+    if (s.kind == Kind::line || s.kind == Kind::dots) continue;
+    include_error(e.y, plot.y, s.y[i], error_at(s.y_err, i));
+    if (!bins) include_error(e.x, plot.x, s.x[i], error_at(s.x_err, i));
+  }
+  if (bins) {
+    e.y.from_zero = plot.y.scale == Scale::linear;
+    for (double edge : bin_edges(s.x)) e.x.include(edge, plot.x.scale);
+  }
+}
+
+}  // namespace
+
 Extents extents_of(const Plot& plot) {
   Extents e;
+  e.y.keep_off = true;
   for (const auto& s : plot.series) {
     check_lengths(s);
-    const bool bins = has_bins(s.kind), points = has_markers(s.kind) || s.kind == Kind::dots;
-    if (bins) e.y.from_zero = plot.y.scale == Scale::linear;
-    if (points) e.x.pad_low = e.x.pad_high = e.y.pad_low = true;
-    e.y.pad_high = true;
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
-      if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
-      if ((plot.x.scale == Scale::log && s.x[i] <= 0) || (plot.y.scale == Scale::log && s.y[i] <= 0))
-        continue;
-      // what a given range of the other axis hides asks for no room
-      if ((plot.x.min && s.x[i] < *plot.x.min) || (plot.x.max && s.x[i] > *plot.x.max)) continue;
-      if ((plot.y.min && s.y[i] < *plot.y.min) || (plot.y.max && s.y[i] > *plot.y.max)) continue;
-      e.x.include(s.x[i], plot.x.scale), e.y.include(s.y[i], plot.y.scale);
-      if (s.kind == Kind::line || s.kind == Kind::dots) continue;
-      const double dy = error_at(s.y_err, i), dx = error_at(s.x_err, i);
-      if (dy > 0) e.y.include(s.y[i] + dy, plot.y.scale), e.y.include(s.y[i] - dy, plot.y.scale);
-      if (dx > 0 && !bins) e.x.include(s.x[i] + dx, plot.x.scale), e.x.include(s.x[i] - dx, plot.x.scale);
-    }
-    if (bins && !s.x.empty()) {
-      const auto edges = bin_edges(s.x);
-      e.x.include(edges.front(), plot.x.scale), e.x.include(edges.back(), plot.x.scale);
-    }
+    include_series(e, plot, s);
   }
-  if (e.y.low < 0 || e.y.pad_low) e.y.pad_low = true;
   for (const auto& r : plot.references) {
     if (r.kind == Reference::Kind::horizontal) e.y.include(r.at, plot.y.scale);
     if (r.kind == Reference::Kind::vertical) e.x.include(r.at, plot.x.scale);

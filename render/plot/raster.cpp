@@ -312,6 +312,8 @@ class Raster {
 
 }  // namespace
 
+std::string drawing_versions() { return gl::Context().version() + "; " + Fonts::versions(); }
+
 image::Image rasterise(const DisplayList& list, double dpi) {
   const int width = static_cast<int>(std::lround(list.width * dpi / 72));
   const int height = static_cast<int>(std::lround(list.height * dpi / 72));

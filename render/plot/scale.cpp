@@ -15,9 +15,22 @@ double Span::fraction(double value) const {
   return std::log(value / low) / std::log(high / low);
 }
 
-void Extent::include(double value, Scale scale) {
+void Extent::include(double value, Scale scale, bool marker) {
   if (!std::isfinite(value) || (scale == Scale::log && value <= 0)) return;
-  low = std::min(low, value), high = std::max(high, value);
+  low = std::min(low, value);
+  high = std::max(high, value);
+  if (!marker) return;
+  marker_low = std::min(marker_low, value);
+  marker_high = std::max(marker_high, value);
+}
+
+void Extent::include(const Extent& other) {
+  low = std::min(low, other.low);
+  high = std::max(high, other.high);
+  marker_low = std::min(marker_low, other.marker_low);
+  marker_high = std::max(marker_high, other.marker_high);
+  from_zero |= other.from_zero;
+  keep_off |= other.keep_off;
 }
 
 namespace {
@@ -25,31 +38,40 @@ namespace {
 constexpr double room = 0.045;  // of the range, beside the outermost markers
 
 Span padded_linear(const Axis& axis, Extent e) {
-  if (e.low > e.high) e.low = 0, e.high = 1;
-  const double low_edge = axis.min.value_or(e.from_zero ? std::min(0.0, e.low) : e.low);
-  const double high_edge = axis.max.value_or(e.from_zero ? std::max(0.0, e.high) : e.high);
-  Span span{low_edge, high_edge, Scale::linear};
-  double range = high_edge - low_edge;
-  const double size = std::max(std::abs(low_edge), std::abs(high_edge));
-  const double least = size > 0 ? 1e-9 * size : 1e-300;  // labels of 10 digits are the most that can be read
-  if (range < least || size == 0) {
+  if (e.low > e.high) {
+    e.low = 0;
+    e.high = 1;
+  }
+  if (e.from_zero) {
+    e.low = std::min(0.0, e.low);
+    e.high = std::max(0.0, e.high);
+  }
+  const double low = axis.min.value_or(e.low), high = axis.max.value_or(e.high);
+  Span span{low, high, Scale::linear};
+  const double range = high - low, size = std::max(std::abs(low), std::abs(high));
+  if (range < 1e-9 * size || size == 0) {  // labels of 10 digits are the most that can be read
     const double wider = size > 0 ? 0.1 * size : 0.5;
     if (!axis.min) span.low -= wider;
     if (!axis.max) span.high += wider;
     return span;
   }
-  if (!axis.max && e.pad_high && !(e.from_zero && high_edge == 0)) span.high += room * range;
-  if (axis.min || (e.from_zero && low_edge == 0)) return span;
+  const double space = room * range;
+  const bool on_ground = e.from_zero && high == 0, on_floor = e.from_zero && low == 0;
+  if (!axis.max && !on_ground && (e.keep_off || e.marker_high > high - space)) span.high += space;
+  if (axis.min || on_floor) return span;
   // near zero start at zero, unless markers sit right there
-  if (low_edge > 0 && low_edge < 0.2 * high_edge && low_edge > (e.pad_low ? room * range : 0))
+  if (low >= 0 && low < 0.2 * high && e.marker_low > space)
     span.low = 0;
-  else if (e.pad_low)
-    span.low -= room * range;
+  else if (e.keep_off || e.marker_low < low + space)
+    span.low -= space;
   return span;
 }
 
 Span padded_log(const Axis& axis, Extent e) {
-  if (e.low > e.high) e.low = axis.max ? *axis.max / 100 : axis.min.value_or(0.1), e.high = 100 * e.low;
+  if (e.low > e.high) {
+    e.low = axis.max ? *axis.max / 100 : axis.min.value_or(0.1);
+    e.high = 100 * e.low;
+  }
   Span span{axis.min.value_or(e.low), axis.max.value_or(e.high), Scale::log};
   if (span.high / span.low < 1 + 1e-9) {
     if (!axis.min) span.low /= 3;
@@ -57,8 +79,10 @@ Span padded_log(const Axis& axis, Extent e) {
     return span;
   }
   const double factor = std::pow(span.high / span.low, room);
-  if (!axis.min && e.pad_low) span.low /= factor;
-  if (!axis.max && e.pad_high) span.high *= factor;
+  const bool pad_low = e.keep_off || e.marker_low < span.low * factor;
+  const bool pad_high = e.keep_off || e.marker_high > span.high / factor;
+  if (!axis.min && pad_low) span.low /= factor;
+  if (!axis.max && pad_high) span.high *= factor;
   return span;
 }
 

@@ -19,11 +19,13 @@ struct Span {
 
 /// What the data of an axis ask for.
 struct Extent {
-  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-  bool from_zero = false;                  ///< a histogram: bars stand on zero
-  bool pad_low = false, pad_high = false;  ///< markers there need room; lines may touch the frame
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double marker_low = low, marker_high = -low;  ///< of the markers alone: at the frame they need room
+  bool from_zero = false;                       ///< a histogram: bars stand on zero
+  bool keep_off = false;                        ///< y: lines must not run along the frame either
 
-  void include(double value, Scale scale);
+  void include(double value, Scale scale, bool marker = false);
+  void include(const Extent& other);
 };
 
 /// The given limits; the data's with a little room where none are given. InputError `axis: …` if the limits

@@ -16,7 +16,7 @@ struct Look {
   double dot_radius = 0.55;                 ///< of scatter plots
   double major_tick = 4, minor_tick = 2.2;  ///< lengths
   double cap = 3;                           ///< width of an error bar's ends
-  double margin = 2;                        ///< around everything
+  double margin = 3;                        ///< around everything
   Color ink, paper, quiet;                  ///< text and frames; ground; reference lines
   std::vector<Color> colors, shades;        ///< series; regions
 };

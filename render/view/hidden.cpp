@@ -10,7 +10,8 @@ namespace chute::view {
 namespace {
 
 struct Seen {
-  float depth, x, y, radius;  ///< depth of the centre; place and radius in cells
+  float depth, x, y;     ///< depth of the centre; its place in cells
+  float inside, around;  ///< radii in cells of circles that lie inside the outline, and around it
 };
 
 /// A grid of cells over the picture that knows how near the nearest full cover is.
@@ -22,7 +23,7 @@ class Cover {
 
   /// True if every cell that the ball may touch is covered by something nearer than its nearest point.
   bool hides(const Seen& ball, float nearest) const {
-    const float reach = ball.radius * 1.06f + 1;  // perspective makes the outline a slightly longer ellipse
+    const float reach = ball.around + 0.5f;
     const int left = clamp(ball.x - reach, width_), right = clamp(ball.x + reach, width_);
     const int top = clamp(ball.y - reach, height_), bottom = clamp(ball.y + reach, height_);
     for (int y = top; y <= bottom; ++y) {
@@ -33,9 +34,9 @@ class Cover {
     return true;
   }
 
-  /// Covers the cells that lie inside 0.75 of the ball's outline: there its surface is nearer than `depth`.
-  void add(const Seen& ball, float depth) {
-    const float reach = 0.75f * ball.radius * 0.97f;
+  /// Covers the cells that lie inside `share` of the ball's outline with something at least as near as `depth`.
+  void add(const Seen& ball, float share, float depth) {
+    const float reach = share * ball.inside;
     if (reach < 0.8f) return;
     const int top = std::max(0, static_cast<int>(std::ceil(ball.y - reach)));
     const int bottom = std::min(height_ - 1, static_cast<int>(std::floor(ball.y + reach)) - 1);
@@ -74,8 +75,12 @@ std::vector<Ball> visible(const std::vector<Ball>& balls, const Eye& eye, int wi
       along += d * t[c], across += d * r[c], above += d * u[c];
     }
     const double depth = eye.distance - along, scale = eye.focal / depth;
+    // off the axis the outline is an ellipse, longer by 1 / cos of the angle, its middle a little farther out
+    const double longer = std::sqrt(1 + (across * across + above * above) / (depth * depth));
+    const double radius = scale * balls[i].radius, shift = balls[i].radius / depth;
     seen[i] = {static_cast<float>(depth), static_cast<float>(eye.at.x + scale * across),
-               static_cast<float>(eye.at.y - scale * above), static_cast<float>(scale * balls[i].radius)};
+               static_cast<float>(eye.at.y - scale * above), static_cast<float>(radius * (1 - shift)),
+               static_cast<float>(radius * longer * longer * (1 + shift))};
   }
   std::vector<std::uint32_t> order(balls.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -88,8 +93,10 @@ std::vector<Ball> visible(const std::vector<Ball>& balls, const Eye& eye, int wi
     const auto radius = static_cast<float>(balls[i].radius);
     if (cover.hides(seen[i], seen[i].depth - radius)) continue;
     keep[i] = 1;
-    // inside 0.75 of the outline the surface is at least sqrt(1 - 0.75²) = 0.66 radii in front of the centre
-    cover.add(seen[i], seen[i].depth - 0.62f * radius);
+    // The surface inside the whole outline is nearer than the centre, inside 0.75 of it by sqrt(1 - 0.75²) = 0.66 radii
+    // and inside 0.95 by 0.31; a little less, for the rays that spread.
+    cover.add(seen[i], 0.95f, seen[i].depth - 0.28f * radius);
+    cover.add(seen[i], 0.75f, seen[i].depth - 0.62f * radius);
   }
   std::vector<Ball> result;
   for (std::size_t i = 0; i < balls.size(); ++i)

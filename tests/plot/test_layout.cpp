@@ -116,7 +116,12 @@ std::string fault(const Layout& layout) {
                box.kind == Box::Kind::inset;
       };
       if (a.kind == Box::Kind::frame && inside(b) && a.rect.contains(b.rect)) continue;
-      return what + " overlaps " + name_of(b.kind) + " \"" + b.text + "\"" + " panels " + std::to_string(a.panel) + " " + std::to_string(b.panel) + " "+std::to_string(a.rect.left)+" "+std::to_string(a.rect.top)+" "+std::to_string(a.rect.right)+" "+std::to_string(a.rect.bottom)+" / "+std::to_string(b.rect.left)+" "+std::to_string(b.rect.top)+" "+std::to_string(b.rect.right)+" "+std::to_string(b.rect.bottom);
+      return what + " overlaps " + name_of(b.kind) + " \"" + b.text + "\"" + " panels " +
+             std::to_string(a.panel) + " " + std::to_string(b.panel) + " " + std::to_string(a.rect.left) +
+             " " + std::to_string(a.rect.top) + " " + std::to_string(a.rect.right) + " " +
+             std::to_string(a.rect.bottom) + " / " + std::to_string(b.rect.left) + " " +
+             std::to_string(b.rect.top) + " " + std::to_string(b.rect.right) + " " +
+             std::to_string(b.rect.bottom);
     }
   }
   return "";

@@ -58,18 +58,29 @@ TEST_CASE("positions follow the scale") {
 }
 
 TEST_CASE("ranges leave room for markers, start at zero when near it, and stand what is degenerate") {
-  Extent e{0.02, 1, false, true, true};
-  const auto padded = span_of({}, e);
-  REQUIRE((padded.low < 0.02 && padded.high > 1 && padded.high < 1.1));
-  e = {0.1, 1, false, true, true};
-  REQUIRE(span_of({}, e).low == 0);
-  e = {2, 3, true, false, true};
+  const auto extent = [](std::initializer_list<double> lines, std::initializer_list<double> markers, bool y) {
+    Extent e;
+    e.keep_off = y;
+    for (double v : lines) e.include(v, Scale::linear);
+    for (double v : markers) e.include(v, Scale::linear, true);
+    return e;
+  };
+  const auto near_zero = span_of({}, extent({}, {0.02, 1}, false));
+  REQUIRE((near_zero.low < 0 && near_zero.high > 1 && near_zero.high < 1.1));
+  REQUIRE(span_of({}, extent({}, {0.1, 1}, false)).low == 0);
+  const auto line = span_of({}, extent({3, 8}, {5}, false));  // a line may end at the frame
+  REQUIRE((line.low == 3 && line.high == 8));
+  const auto upright = span_of({}, extent({3, 8}, {}, true));  // but not run along it
+  REQUIRE((upright.low < 3 && upright.high > 8));
+  REQUIRE(span_of({}, extent({0, 8}, {}, true)).low == 0);
+  auto e = extent({2, 3}, {}, true);
+  e.from_zero = true;
   REQUIRE(span_of({}, e).low == 0);
   Axis fixed;
   fixed.min = 1, fixed.max = 5;
   REQUIRE((span_of(fixed, e).low == 1 && span_of(fixed, e).high == 5));
   for (double v : {0.0, 1.0, -1e20, 1e-300}) {
-    const auto one = span_of({}, {v, v, false, true, true});
+    const auto one = span_of({}, extent({v}, {v}, true));
     REQUIRE((one.low < one.high && std::isfinite(one.low) && std::isfinite(one.high)));
   }
   const auto empty = span_of({}, {});

@@ -44,6 +44,8 @@ BLOCK = 1000         # samples per block of profiles (20 time units)
 T_FROM, T_TO = 200.0, 400.0
 FIT = (2.0, 8.0)     # heights between which the bulk shear rate is fitted
 
+LOCKED, SLIPPING = 0.02, 0.1  # v_x of the lowest bin: below, the bed layer is locked; above, it slips
+
 CASES = {"mu05": (0.5, 18.0), "mu00": (0.0, 14.4)}
 
 
@@ -250,7 +252,8 @@ def reduce(work):
         out.write("# one row per run, LAMMPS; averages over t = %g to %g; see README.md\n" % (T_FROM, T_TO))
         table = csv.writer(out, lineterminator="\n")
         table.writerow("mu theta_deg seed v_x_mean v_x_std_in_time v_x_mean_first_half v_x_mean_second_half "
-                       "grains_below_1.3 share_of_time_full h_mean shear_rate_2_8 v_x_lowest_bin lowest_row_sum_of_diameters_at_end loop_s".split())
+                       "grains_below_1.3 share_of_time_full h_mean shear_rate_2_8 v_x_lowest_bin "
+                       "lowest_row_sum_of_diameters_at_end loop_s".split())
         for r in runs:
             table.writerow([text(v) if isinstance(v, float) else v for v in r["row"]])
     with open(os.path.join(HERE, "chute-2d.csv"), "w", newline="") as out:
@@ -271,7 +274,8 @@ def reduce(work):
                     row += [text(v) for v in mean_and_error(values)]
                 table.writerow(row + [len(have)])
     with open(os.path.join(HERE, "chute-2d-series.csv"), "w", newline="") as out:
-        out.write("# per run, averaged over the 5 time units before t: mean v_x of all moving grains, number with h < 1.3\n")
+        out.write("# per run, averaged over the 5 time units before t: mean v_x of all moving grains, "
+                  "number with h < 1.3\n")
         table = csv.writer(out, lineterminator="\n")
         table.writerow(["mu", "seed", "t", "v_x_mean", "grains_below_1.3"])
         for r in runs:
@@ -287,21 +291,39 @@ def reduce(work):
         table.writerow("mu seed t v_x_mean grains_below_1.3 v_x_lowest_bin shear_rate_2_8 v_x_9.5".split())
         for r in runs:
             series = read_series(r["prefix"])
+            r["blocks"] = []
             for i in range(round(T_TO / (BLOCK * SAMPLE))):
                 t_from, t_to = i * BLOCK * SAMPLE, (i + 1) * BLOCK * SAMPLE
                 part = [row for row in series if t_from + 0.5 < row[0] < t_to + 0.5]
                 prof = profile(r["prefix"], t_from, t_to)
-                table.writerow(["%g" % r["mu"], r["seed"], round(t_to)] + ["%.4f" % v for v in (
-                    statistics.mean(row[1] for row in part), statistics.mean(row[2] for row in part),
-                    prof[0.5][1], shear_rate(prof), prof[9.5][1])])
+                block = (t_to, statistics.mean(row[1] for row in part), statistics.mean(row[2] for row in part),
+                         prof[0.5][1], shear_rate(prof), prof[9.5][1])
+                r["blocks"].append(block)
+                table.writerow(["%g" % r["mu"], r["seed"], round(t_to)] + ["%.4f" % v for v in block[1:]])
+    report(runs)
+
+
+def report(runs):
     for case in CASES.values():
-        rows = [r["row"] for r in runs if (r["mu"], r["theta_deg"]) == case]
+        here = [r for r in runs if (r["mu"], r["theta_deg"]) == case]
+        rows = [r["row"] for r in here]
         if rows:
             print("mu %g theta %g, %d runs" % (*case, len(rows)))
             for name, k in (("mean v_x", 3), ("grains below 1.3", 7), ("share full", 8), ("mean h", 9),
                             ("shear rate", 10), ("v_x lowest bin", 11)):
                 mean, error = mean_and_error([row[k] for row in rows])
                 print("  %-18s %s +- %s" % (name, text(mean), text(error)))
+        for name, low, high in (("locked", -1.0, LOCKED), ("between", LOCKED, SLIPPING), ("slipping", SLIPPING, 9.0)):
+            of_runs, blocks = [], 0  # per run, its mean over those blocks whose lowest bin is in that state
+            for r in here:
+                mine = [b[1:] for b in r["blocks"] if b[0] > T_FROM and low <= b[3] < high]
+                blocks += len(mine)
+                if mine:
+                    of_runs.append([statistics.mean(column) for column in zip(*mine)])
+            if of_runs:
+                cells = [mean_and_error(column) for column in zip(*of_runs)]
+                print("  %-9s %d blocks of %d runs: mean v_x, grains below 1.3, v_x lowest bin, shear rate, v_x(9.5):"
+                      % (name, blocks, len(of_runs)), ", ".join("%s +- %s" % (text(m), text(e)) for m, e in cells))
 
 
 def speed(work, steps):
