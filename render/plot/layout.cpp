@@ -157,12 +157,15 @@ class Layouter {
     const auto n = figure_.panels.size();
     const double margin = look_.margin, between = 0.9 * look_.tick_size;
     axes_top_.assign(n, 0);
-    column_margins_.assign(static_cast<std::size_t>(columns_), {});
-    row_margins_.assign(static_cast<std::size_t>(rows_), {});
+    const auto no_margins = [&] {
+      column_margins_.assign(static_cast<std::size_t>(columns_), {});
+      row_margins_.assign(static_cast<std::size_t>(rows_), {});
+    };
     double width = page_.width / columns_ * 0.8,
            height = figure_.height.value_or(60) * points_per_mm / rows_ * 0.7;
     if (!figure_.height) height = figure_.aspect * width;
-    for (int pass = 0; pass < 8; ++pass) {
+    for (int pass = 0; pass < 12; ++pass) {
+      if (pass < 4) no_margins();  // near the answer; from here on margins only grow, so that this ends
       const double old_width = width, old_height = height;
       for (std::size_t i = 0; i < n; ++i) {
         Margins m = axes_[i]->fit(width, height);

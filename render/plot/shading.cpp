@@ -99,29 +99,52 @@ void draw_reference(Painter& painter, const Frame& frame, const Reference& refer
   if (path.empty()) return;
   const double width = 1.4 * painter.look.hairline;
   painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.quiet);
-  mark_polyline(painter.occupied, points, frame.rect, width);
 }
 
-void draw_reference_label(Painter& painter, const Frame& frame, const Reference& reference) {
-  if (reference.label.empty()) return;
+namespace {
+
+/// Sets the label along the line where it covers no data, as far right as can be; at the right end if there
+/// is no such place.
+void label_line(Painter& painter, const Frame& frame, const Reference& reference) {
   const auto points = reference_points(frame, reference);
-  // along the line, above the right end of its last stretch inside the frame
-  Point a, b;
+  Point a, b;  // the last stretch of the line inside the frame
   bool inside = false;
   for (std::size_t i = points.size() - 1; i > 0 && !inside; --i) {
-    a = points[i - 1], b = points[i];
+    a = points[i - 1];
+    b = points[i];
     inside = std::isfinite(a.x + a.y + b.x + b.y) && cut_segment(a, b, frame.rect);
   }
   if (!inside) return;
   const auto text = set_text(reference.label, painter.look.legend_size);
-  const double angle = std::atan2(a.y - b.y, b.x - a.x), gap = 3 + text.descent;
+  const double angle = std::atan2(a.y - b.y, b.x - a.x), gap = 3;
   const Point along{std::cos(angle), -std::sin(angle)}, up{-std::sin(angle), -std::cos(angle)};
-  const Point at = b - (text.width + 8) * along + gap * up;
-  draw_text(painter.list, text, at, painter.look.ink, angle);
-  Rect box = Rect::nothing();
-  for (double s : {0.0, text.width})
-    for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
-  painter.occupied.mark(box);
+  const auto box_at = [&](Point at) {
+    Rect box = Rect::nothing();
+    for (double s : {0.0, text.width})
+      for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
+    return box;
+  };
+  const Point end = b - (text.width + 8) * along;
+  const double above = gap + text.descent, below = -gap - text.ascent;
+  Point best = end + above * up;
+  bool found = false;
+  for (double back = 0; back < std::hypot(b.x - a.x, b.y - a.y) - text.width - 16 && !found; back += 3)
+    for (double side : {above, below}) {
+      const Point at = end - back * along + side * up;
+      if (found || !painter.occupied.free(box_at(at))) continue;
+      best = at;
+      found = true;
+    }
+  draw_text(painter.list, text, best, painter.look.ink, angle);
+  painter.occupied.mark(box_at(best));
+}
+
+}  // namespace
+
+void draw_reference_label(Painter& painter, const Frame& frame, const Reference& reference) {
+  if (!reference.label.empty()) label_line(painter, frame, reference);
+  // only now, or the label would keep off its own line
+  mark_polyline(painter.occupied, reference_points(frame, reference), frame.rect, 2 * painter.look.hairline);
 }
 
 void draw_note(Painter& painter, const Frame& frame, const Note& note) {

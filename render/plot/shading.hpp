@@ -6,7 +6,7 @@ namespace chute::plot {
 
 void draw_region(Painter& painter, const Frame& frame, const Plot& plot, const Region& region);
 void draw_reference(Painter& painter, const Frame& frame, const Reference& reference);
-/// Its label, which goes above the data.
+/// Its label, drawn above the data; tells the occupancy about the line too.
 void draw_reference_label(Painter& painter, const Frame& frame, const Reference& reference);
 void draw_note(Painter& painter, const Frame& frame, const Note& note);
 

@@ -18,16 +18,16 @@ std::vector<Contact> parse_contacts(std::string bytes, const std::filesystem::pa
       if (array.name == name && !force) force = &array;
   if (points.lines.empty()) return {};
   if (!force)
-    throw InputError(path.string() + ": no cell array \"force\" or \"normal_force\", the strength of each contact");
+    throw InputError(path.string() +
+                     ": no cell array \"force\" or \"normal_force\", the strength of each contact");
   std::vector<Contact> contacts;
   contacts.reserve(points.lines.size());
   for (std::size_t i = 0; i < points.lines.size(); ++i) {
     const auto [a, b] = points.lines[i];
     double squared = 0;
     for (int c = 0; c < force->components; ++c) squared += std::pow(force->at(points.line_cells[i], c), 2);
-    const Contact contact{{points.x[a], points.y[a], points.z[a]},
-                          {points.x[b], points.y[b], points.z[b]},
-                          std::sqrt(squared)};
+    const Contact contact{
+        {points.x[a], points.y[a], points.z[a]}, {points.x[b], points.y[b], points.z[b]}, std::sqrt(squared)};
     for (double value : {contact.from[0], contact.from[1], contact.from[2], contact.to[0], contact.to[1],
                          contact.to[2], contact.force})
       if (!std::isfinite(value))

@@ -18,19 +18,23 @@ namespace {
 using Names = std::span<const std::string_view>;
 
 // What engines call the same thing: chute's name first, then those of LAMMPS, LIGGGHTS, MercuryDPM and YADE.
-constexpr std::string_view radius_names[] = {"radius", "Radius", "radii", "Radii", "r", "R", "rad", "c_radius", "RADIUS"};
+constexpr std::string_view radius_names[] = {"radius", "Radius", "radii",    "Radii", "r",
+                                             "R",      "rad",    "c_radius", "RADIUS"};
 constexpr std::string_view diameter_names[] = {"diameter", "Diameter", "d", "D", "diam", "DIAMETER"};
-constexpr std::string_view velocity_names[] = {"velocity", "Velocity", "v", "V", "vel", "linVelVec", "linVel", "VELOCITY"};
-constexpr std::string_view spin_names[] = {"angular_velocity", "AngularVelocity", "angularVelocity", "omega", "Omega", "angVelVec",
-                                           "angVel"};
+constexpr std::string_view velocity_names[] = {"velocity", "Velocity",  "v",      "V",
+                                               "vel",      "linVelVec", "linVel", "VELOCITY"};
+constexpr std::string_view spin_names[] = {
+    "angular_velocity", "AngularVelocity", "angularVelocity", "omega", "Omega", "angVelVec", "angVel"};
 constexpr std::string_view force_names[] = {"force", "Force", "f", "F", "forceVec", "FORCE"};
 constexpr std::string_view mass_names[] = {"mass", "Mass", "m", "MASS"};
 constexpr std::string_view type_names[] = {"type", "Type", "TYPE"};
 constexpr std::string_view id_names[] = {"id", "ID", "Id", "identifier", "Name"};
-constexpr Names groups[] = {radius_names, velocity_names, spin_names, force_names, mass_names, type_names, id_names};
+constexpr Names groups[] = {radius_names, velocity_names, spin_names, force_names,
+                            mass_names,   type_names,     id_names};
 
 const PointArray* find_one(const std::vector<PointArray>& arrays, std::string_view name) {
-  const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
+  const auto found =
+      std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
   return found == arrays.end() ? nullptr : &*found;
 }
 
@@ -57,7 +61,8 @@ void join_components(GrainFrame& frame, std::string_view name, Names names, cons
 std::vector<double> radii(const GrainFrame& frame, std::optional<double> given) {
   const std::size_t count = frame.size();
   if (given) return std::vector<double>(count, *given);
-  if (const auto* array = find_any(frame.arrays, radius_names); array && array->components == 1) return array->values;
+  if (const auto* array = find_any(frame.arrays, radius_names); array && array->components == 1)
+    return array->values;
   if (const auto* array = find_any(frame.arrays, diameter_names); array && array->components == 1) {
     auto values = array->values;
     for (double& value : values) value /= 2;
@@ -65,8 +70,9 @@ std::vector<double> radii(const GrainFrame& frame, std::optional<double> given) 
   }
   std::vector<std::string_view> there;
   for (const auto& array : frame.arrays) there.push_back(array.name);
-  throw InputError(fmt::format("{}: no array of radii or diameters (arrays: {}); give a radius for all grains",
-                               frame.file.string(), there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", "))));
+  throw InputError(
+      fmt::format("{}: no array of radii or diameters (arrays: {}); give a radius for all grains",
+                  frame.file.string(), there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", "))));
 }
 
 void check(const GrainFrame& frame) {
@@ -106,9 +112,11 @@ GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std
   for (std::string_view name : {fields::time_value, std::string_view("TIME"), std::string_view("Time")})
     if (const auto* time = find_one(points.field_arrays, name); time && !time->values.empty() && !frame.time)
       frame.time = time->values[0];
-  if (const auto* domain = find_one(points.field_arrays, fields::domain); domain && domain->values.size() == 6)
+  if (const auto* domain = find_one(points.field_arrays, fields::domain);
+      domain && domain->values.size() == 6)
     std::copy(domain->values.begin(), domain->values.end(), frame.domain.begin());
-  if (const auto* gravity = find_one(points.field_arrays, fields::gravity); gravity && gravity->values.size() == 3)
+  if (const auto* gravity = find_one(points.field_arrays, fields::gravity);
+      gravity && gravity->values.size() == 3)
     std::copy(gravity->values.begin(), gravity->values.end(), frame.gravity.begin());
   join_components(frame, fields::velocity.name, velocity_names, "v");
   join_components(frame, fields::angular_velocity.name, spin_names, "omega");

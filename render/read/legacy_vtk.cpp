@@ -106,7 +106,8 @@ class Reader {
     const auto text = word();
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) fail(fmt::format("{}: \"{}\" is no count", of, text));
+    if (error != std::errc() || end != text.data() + text.size())
+      fail(fmt::format("{}: \"{}\" is no count", of, text));
     // a value takes a bit at least
     if (value > 8 * all_.size()) fail(fmt::format("{} {}: more than the file holds", of, value));
     return value;
@@ -123,7 +124,8 @@ std::vector<double> Reader::values(std::size_t number, std::string_view type_nam
   std::vector<double> result;
   std::string lower(type_name);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto* type = std::find_if(std::begin(types), std::end(types), [&](const Type& t) { return t.name == lower; });
+  const auto* type =
+      std::find_if(std::begin(types), std::end(types), [&](const Type& t) { return t.name == lower; });
   const bool bits = lower == "bit";
   if (type == std::end(types) && !bits) fail(fmt::format("{}: unknown type \"{}\"", of, type_name));
   if (!binary_) {
@@ -132,8 +134,10 @@ std::vector<double> Reader::values(std::size_t number, std::string_view type_nam
       const auto text = word();
       if (text.empty()) fail(fmt::format("{}: {} values, but {} are there", of, number, i));
       double value = 0;
-      const auto [end, error] = std::from_chars(text.data() + text.starts_with('+'), text.data() + text.size(), value);
-      if ((error != std::errc() && error != std::errc::result_out_of_range) || end != text.data() + text.size())
+      const auto [end, error] =
+          std::from_chars(text.data() + text.starts_with('+'), text.data() + text.size(), value);
+      if ((error != std::errc() && error != std::errc::result_out_of_range) ||
+          end != text.data() + text.size())
         fail(fmt::format("{}: \"{}\" is not a number", of, text));
       result.push_back(value);
     }
@@ -142,7 +146,8 @@ std::vector<double> Reader::values(std::size_t number, std::string_view type_nam
   }
   line();  // the values begin behind the line that announced them
   const std::size_t size = bits ? (number + 7) / 8 : number * type->size;
-  if (size > all_.size() - at_) fail(fmt::format("{}: {} bytes, but {} are there", of, size, all_.size() - at_));
+  if (size > all_.size() - at_)
+    fail(fmt::format("{}: {} bytes, but {} are there", of, size, all_.size() - at_));
   result.resize(number);
   for (std::size_t i = 0; i < number; ++i)
     result[i] = bits ? all_[at_ + i / 8] >> (7 - i % 8) & 1 : type->read(&all_[at_ + i * type->size]);
@@ -206,7 +211,8 @@ void Reader::cells(int version, std::string_view keyword) {
     std::size_t i = 0;
     for (std::size_t cell = 0; cell < first; ++cell) {
       const double length = i < list.size() ? list[i] : -1;
-      if (!(length >= 0) || length > static_cast<double>(list.size() - i - 1)) fail(fmt::format("{}: broken list", keyword));
+      if (!(length >= 0) || length > static_cast<double>(list.size() - i - 1))
+        fail(fmt::format("{}: broken list", keyword));
       const auto from = list.begin() + static_cast<std::ptrdiff_t>(i) + 1;
       cells_.emplace_back(from, from + static_cast<std::ptrdiff_t>(length));
       i += 1 + static_cast<std::size_t>(length);
@@ -216,14 +222,17 @@ void Reader::cells(int version, std::string_view keyword) {
   std::vector<double> parts[2];
   for (int k = 0; k < 2; ++k) {
     const auto name = upper(word());
-    if (name != (k ? "CONNECTIVITY" : "OFFSETS")) fail(fmt::format("{}: \"{}\" where offsets and points belong", keyword, name));
+    if (name != (k ? "CONNECTIVITY" : "OFFSETS"))
+      fail(fmt::format("{}: \"{}\" where offsets and points belong", keyword, name));
     const std::string type(word());
     parts[k] = values(k ? second : first, type, keyword);
   }
   for (std::size_t i = 0; i + 1 < first; ++i) {
     const double from = parts[0][i], to = parts[0][i + 1];
-    if (!(from >= 0 && from <= to && to <= static_cast<double>(second))) fail(fmt::format("{}: broken offsets", keyword));
-    cells_.emplace_back(parts[1].begin() + static_cast<std::ptrdiff_t>(from), parts[1].begin() + static_cast<std::ptrdiff_t>(to));
+    if (!(from >= 0 && from <= to && to <= static_cast<double>(second)))
+      fail(fmt::format("{}: broken offsets", keyword));
+    cells_.emplace_back(parts[1].begin() + static_cast<std::ptrdiff_t>(from),
+                        parts[1].begin() + static_cast<std::ptrdiff_t>(to));
   }
 }
 
@@ -235,7 +244,8 @@ void Reader::attribute(const std::string& keyword) {
   if (keyword == "SCALARS") {
     type = word();
     const auto next = look_ahead();
-    if (!next.empty() && std::isdigit(static_cast<unsigned char>(next[0]))) array.components = static_cast<int>(count(name));
+    if (!next.empty() && std::isdigit(static_cast<unsigned char>(next[0])))
+      array.components = static_cast<int>(count(name));
     if (upper(look_ahead()) == "LOOKUP_TABLE") word(), word();
   } else if (keyword == "LOOKUP_TABLE") {
     values(4 * count(keyword), binary_ ? "unsigned_char" : "float", keyword);
@@ -250,7 +260,8 @@ void Reader::attribute(const std::string& keyword) {
     if (keyword == "TENSORS6") array.components = 6;
     type = word();
   }
-  array.values = values(tuples_ * static_cast<std::size_t>(array.components), type, fmt::format("array \"{}\"", name));
+  array.values =
+      values(tuples_ * static_cast<std::size_t>(array.components), type, fmt::format("array \"{}\"", name));
   data_->push_back(std::move(array));
 }
 
@@ -287,11 +298,12 @@ VtkPoints Reader::read() {
       const std::string type(word());
       const auto xyz = values(3 * points_, type, keyword);
       for (std::size_t i = 0; i < points_; ++i) {
-        result_.x.push_back(xyz[3 * i]), result_.y.push_back(xyz[3 * i + 1]), result_.z.push_back(xyz[3 * i + 2]);
+        result_.x.push_back(xyz[3 * i]), result_.y.push_back(xyz[3 * i + 1]),
+            result_.z.push_back(xyz[3 * i + 2]);
       }
       has_points = true;
-    } else if (keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" || keyword == "TRIANGLE_STRIPS" ||
-               keyword == "CELLS") {
+    } else if (keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" ||
+               keyword == "TRIANGLE_STRIPS" || keyword == "CELLS") {
       cells(static_cast<int>(version), keyword);
     } else if (keyword == "CELL_TYPES") {
       values(count(keyword), "int", keyword);

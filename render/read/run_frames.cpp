@@ -95,6 +95,10 @@ std::vector<FrameFile> frames_of(const fs::path& source) {
   std::error_code error;
   if (fs::is_directory(source, error)) {
     if (fs::exists(source / "frames.pvd", error)) return read_pvd(source / "frames.pvd");
+    if (fs::exists(source / "scene.toml", error))
+      throw InputError(
+          source.string() +
+          ": the run kept no frames; its scene asks for them with [output] frames = { every = … }");
     auto frames = files_in(source, "*");
     if (frames.empty()) frames = files_in(source / "frames", "*");
     return frames;
@@ -111,11 +115,13 @@ std::vector<FrameFile> frames_of(const fs::path& source) {
 std::vector<FrameFile> read_pvd(const fs::path& path) {
   const std::string text = read_file(path);
   Index index{path, {}, false, {}};
-  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr), XML_ParserFree);
+  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
+                                                                            XML_ParserFree);
   XML_SetUserData(parser.get(), &index);
   XML_SetStartElementHandler(parser.get(), on_element);
   if (XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), 1) != XML_STATUS_OK)
-    throw InputError(fmt::format("{}:{}: not a time index: {}", path.string(), XML_GetCurrentLineNumber(parser.get()),
+    throw InputError(fmt::format("{}:{}: not a time index: {}", path.string(),
+                                 XML_GetCurrentLineNumber(parser.get()),
                                  XML_ErrorString(XML_GetErrorCode(parser.get()))));
   if (!index.wrong.empty()) throw InputError(path.string() + ": " + index.wrong);
   if (!index.is_collection) throw InputError(path.string() + ": not a time index: no element Collection");
@@ -126,7 +132,8 @@ std::vector<FrameFile> read_pvd(const fs::path& path) {
 
 std::vector<FrameFile> find_frames(const fs::path& source) {
   auto frames = frames_of(source);
-  if (frames.empty()) throw InputError(source.string() + ": no frames: no VTK file (.vtp, .vtu, .vtk) is there");
+  if (frames.empty())
+    throw InputError(source.string() + ": no frames: no VTK file (.vtp, .vtu, .vtk) is there");
   for (auto& frame : frames) {
     const auto beside = frame.path.parent_path().parent_path() / "contacts" / frame.path.filename();
     std::error_code error;

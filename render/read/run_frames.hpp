@@ -13,13 +13,14 @@ struct FrameFile {
   std::filesystem::path contacts;  ///< the contact network at that time, empty if there is none
 };
 
-/// Reads ParaView's time index (.pvd): times and files, sorted by time. Paths are relative to the index. InputError,
-/// one line that names it, if it is missing, no XML, not a collection, or an entry lacks its file or has a time that is no
-/// number.
+/// Reads ParaView's time index (.pvd): times and files, sorted by time. Paths are relative to the index.
+/// InputError, one line that names it, if it is missing, no XML, not a collection, or an entry lacks its file
+/// or has a time that is no number.
 std::vector<FrameFile> read_pvd(const std::filesystem::path& path);
 
 /// The frames of a run, in order. `source` is
-/// - a run directory (its frames.pvd), or a directory of VTK files (any engine's), in natural order of their names;
+/// - a run directory (its frames.pvd), or a directory of VTK files (any engine's), in natural order of their
+/// names;
 /// - a .pvd index, or one VTK file;
 /// - a pattern with `*` and `?` in its last part, such as `post/dump*.vtk`.
 /// A file contacts/NAME beside frames/NAME is that frame's contact network. InputError if nothing is found.

@@ -71,7 +71,8 @@ Table parse_table(std::string_view text, const std::filesystem::path& name) {
       if (!take_cell(line, cells.emplace_back(), last)) fail("a quoted cell does not end as it should");
     if (table.header.empty()) {
       for (auto cell = cells.begin(); cell != cells.end(); ++cell)
-        if (std::find(cells.begin(), cell, *cell) != cell) fail(fmt::format("two columns are called \"{}\"", *cell));
+        if (std::find(cells.begin(), cell, *cell) != cell)
+          fail(fmt::format("two columns are called \"{}\"", *cell));
       table.header = std::move(cells);
     } else if (cells.size() != table.header.size()) {
       fail(fmt::format("{} cells, but the header names {}", cells.size(), table.header.size()));
@@ -80,7 +81,8 @@ Table parse_table(std::string_view text, const std::filesystem::path& name) {
       table.lines.push_back(number);
     }
   }
-  if (table.header.empty()) throw InputError(name.string() + ": no header line, expected comma-separated values");
+  if (table.header.empty())
+    throw InputError(name.string() + ": no header line, expected comma-separated values");
   return table;
 }
 

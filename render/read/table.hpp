@@ -15,8 +15,8 @@ struct Table {
   std::vector<std::size_t> lines;              ///< of each row in the file, from 1
 
   bool has(std::string_view name) const;
-  /// A column as numbers; an empty cell is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column or a
-  /// cell that is no number.
+  /// A column as numbers; an empty cell is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column
+  /// or a cell that is no number.
   std::vector<double> column(std::string_view name) const;
   /// A column as it stands.
   std::vector<std::string> text(std::string_view name) const;
@@ -24,10 +24,10 @@ struct Table {
   std::size_t index(std::string_view name) const;
 };
 
-/// Reads comma-separated values. Lines that start with `#` are comments, the first other line is the header; empty lines
-/// are skipped, cells may stand in double quotes, with a quote in them doubled. InputError `FILE:LINE: …` for a row
-/// with more or fewer cells than the header, a quote that does not end, a column named twice; `FILE: …` if there is no
-/// header.
+/// Reads comma-separated values. Lines that start with `#` are comments, the first other line is the header;
+/// empty lines are skipped, cells may stand in double quotes, with a quote in them doubled. InputError
+/// `FILE:LINE: …` for a row with more or fewer cells than the header, a quote that does not end, a column
+/// named twice; `FILE: …` if there is no header.
 Table read_table(const std::filesystem::path& path);
 
 /// The same from text; `name` stands for the file in messages.

@@ -79,7 +79,8 @@ vtkSmartPointer<vtkPointSet> read_xml(std::string& bytes) {
   return reader->GetErrorCode() == 0 ? vtkPointSet::SafeDownCast(reader->GetOutputAsDataSet()) : nullptr;
 }
 
-/// The value of attribute `type` of the element VTKFile, empty if the text does not start like a VTK XML file.
+/// The value of attribute `type` of the element VTKFile, empty if the text does not start like a VTK XML
+/// file.
 std::string_view xml_type(std::string_view text) {
   const auto start = text.substr(0, 4096).find("<VTKFile");
   if (start == std::string_view::npos) return {};
@@ -139,7 +140,8 @@ VtkPoints copied(vtkPointSet* set) {
 VtkPoints parse_xml(std::string& bytes, bool polydata) {
   if (const auto fault = xml_fault(bytes); !fault.empty()) throw std::runtime_error(fault);
   Listening listening;
-  const auto set = polydata ? read_xml<vtkXMLPolyDataReader>(bytes) : read_xml<vtkXMLUnstructuredGridReader>(bytes);
+  const auto set =
+      polydata ? read_xml<vtkXMLPolyDataReader>(bytes) : read_xml<vtkXMLUnstructuredGridReader>(bytes);
   if (!listening.kept->first.empty()) throw std::runtime_error(listening.kept->first);
   if (!set) throw std::runtime_error("VTK cannot read it");
   return copied(set);

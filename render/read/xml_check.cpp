@@ -11,8 +11,8 @@
 namespace chute::read {
 namespace {
 
-constexpr std::string_view types[] = {"Int8",   "UInt8",  "Int16",   "UInt16",  "Int32",  "UInt32",
-                                      "Int64",  "UInt64", "Float32", "Float64", "String", "Bit"};
+constexpr std::string_view types[] = {"Int8",  "UInt8",  "Int16",   "UInt16",  "Int32",  "UInt32",
+                                      "Int64", "UInt64", "Float32", "Float64", "String", "Bit"};
 // zlib packs at most about a thousand bytes into one
 constexpr std::uint64_t densest = 1100;
 
@@ -50,7 +50,8 @@ std::string xml_fault(std::string_view text) {
   const bool whole = appended == std::string_view::npos;
   const auto head = text.substr(0, appended);
   Check check{densest * text.size(), {}};
-  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr), XML_ParserFree);
+  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
+                                                                            XML_ParserFree);
   XML_SetUserData(parser.get(), &check);
   XML_SetStartElementHandler(parser.get(), on_element);
   if (XML_Parse(parser.get(), head.data(), static_cast<int>(head.size()), whole) != XML_STATUS_OK)

@@ -89,7 +89,9 @@ struct Shared {
     try {
       if (!draw) draw = make_draw();
       reply.outcome = draw(order.number, wanted, picture) ? Outcome::drawn : Outcome::kept;
-      if (wanted) std::memcpy(pixels + static_cast<std::size_t>(order.slot) * picture_bytes, picture.rgba.data(), picture_bytes);
+      if (wanted)
+        std::memcpy(pixels + static_cast<std::size_t>(order.slot) * picture_bytes, picture.rgba.data(),
+                    picture_bytes);
     } catch (const InputError& error) {
       say(Outcome::input_error, error.what());
     } catch (const std::exception& error) {
@@ -102,10 +104,12 @@ struct Shared {
 
 class Worker {
  public:
-  Worker(std::size_t picture_bytes, bool wanted, const std::function<Draw()>& make_draw, const std::vector<int>& others)
+  Worker(std::size_t picture_bytes, bool wanted, const std::function<Draw()>& make_draw,
+         const std::vector<int>& others)
       : pixels_(wanted ? slots * picture_bytes : 0) {
     int orders[2], replies[2];
-    if (::pipe(orders) != 0 || ::pipe(replies) != 0) throw WorkError(fmt::format("no pipe: {}", std::strerror(errno)));
+    if (::pipe(orders) != 0 || ::pipe(replies) != 0)
+      throw WorkError(fmt::format("no pipe: {}", std::strerror(errno)));
     const pid_t parent = ::getpid();
     process_ = ::fork();
     if (process_ < 0) throw WorkError(fmt::format("no process to draw in: {}", std::strerror(errno)));
@@ -114,7 +118,8 @@ class Worker {
       if (::getppid() != parent) std::_Exit(1);
       for (int file : others) ::close(file);  // else a sibling would not see its orders end
       ::close(orders[1]), ::close(replies[0]);
-      work(orders[0], replies[1], static_cast<std::uint8_t*>(pixels_.memory), picture_bytes, wanted, make_draw);
+      work(orders[0], replies[1], static_cast<std::uint8_t*>(pixels_.memory), picture_bytes, wanted,
+           make_draw);
     }
     ::close(orders[0]), ::close(replies[1]);
     orders_ = orders[1], replies_ = replies[0];
@@ -162,9 +167,10 @@ void draw_here(std::size_t count, bool wanted, const std::function<Draw()>& make
 
 }  // namespace
 
-void draw_all(std::size_t count, int jobs, int width, int height, bool wanted, const std::function<Draw()>& make_draw,
-              const Take& take) {
-  if (jobs <= 1 || count <= 1 || OffscreenContext::ever_made()) return draw_here(count, wanted, make_draw, take);
+void draw_all(std::size_t count, int jobs, int width, int height, bool wanted,
+              const std::function<Draw()>& make_draw, const Take& take) {
+  if (jobs <= 1 || count <= 1 || OffscreenContext::ever_made())
+    return draw_here(count, wanted, make_draw, take);
   const std::size_t picture_bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto crew_size = std::min<std::size_t>(static_cast<std::size_t>(jobs), count);
   // Mesa draws with a thread per processor in every process; shared out, they do not get in each other's way
@@ -202,7 +208,9 @@ void draw_all(std::size_t count, int jobs, int width, int height, bool wanted, c
     }
     for (auto first = done.begin(); first != done.end() && first->first == taken; first = done.begin()) {
       const Done ready = first->second;
-      if (wanted) std::memcpy(picture.rgba.data(), crew[ready.worker]->pixels(ready.slot, picture_bytes), picture_bytes);
+      if (wanted)
+        std::memcpy(picture.rgba.data(), crew[ready.worker]->pixels(ready.slot, picture_bytes),
+                    picture_bytes);
       if (next < count) crew[ready.worker]->order(next++, ready.slot);
       take(taken, ready.drawn, picture);
       ++taken;

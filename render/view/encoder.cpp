@@ -34,7 +34,8 @@ struct NoBrokenPipeSignal {
 
 Encoder::Encoder(const std::vector<std::string>& arguments) : name_(arguments.at(0)) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw WorkError(fmt::format("{}: no pipe: {}", name_, std::strerror(errno)));
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw WorkError(fmt::format("{}: no pipe: {}", name_, std::strerror(errno)));
   said_ = ::memfd_create("said", MFD_CLOEXEC);
   std::vector<char*> words;
   for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
@@ -44,7 +45,8 @@ Encoder::Encoder(const std::vector<std::string>& arguments) : name_(arguments.at
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, said_, STDERR_FILENO);
-  posix_spawnattr_t own_group;  // an interrupt from the keyboard is for this program, which then ends the other
+  posix_spawnattr_t
+      own_group;  // an interrupt from the keyboard is for this program, which then ends the other
   posix_spawnattr_init(&own_group);
   posix_spawnattr_setflags(&own_group, POSIX_SPAWN_SETPGROUP);
   pid_t process = -1;
@@ -89,7 +91,8 @@ void Encoder::fail() {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   text = text.substr(text.find_last_of("\r\n") + 1);
   if (text.empty())
-    text = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status)) : "it says nothing about why";
+    text = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
+                               : "it says nothing about why";
   throw WorkError(fmt::format("{} failed: {}", name_, text));
 }
 

@@ -43,7 +43,8 @@ Seen project(const std::array<double, 6>& box, const Vector& centre, const Axes&
   Seen s{1e300, -1e300, 1e300, -1e300};
   for (const Vector& corner : corners(box)) {
     const Vector p = minus(corner, centre);
-    const double depth = distance - dot(p, axes.towards), u = dot(p, axes.right) / depth, v = dot(p, axes.up) / depth;
+    const double depth = distance - dot(p, axes.towards), u = dot(p, axes.right) / depth,
+                 v = dot(p, axes.up) / depth;
     s = {std::min(s.left, u), std::max(s.right, u), std::min(s.low, v), std::max(s.high, v)};
   }
   return s;
@@ -65,14 +66,16 @@ double Eye::aspect(const std::array<double, 6>& box, Vector towards, Vector up) 
   return (s.right - s.left) / (s.high - s.low);
 }
 
-Eye Eye::on_box(const std::array<double, 6>& box, Vector towards, Vector up, const plot::Rect& rect, double zoom) {
+Eye Eye::on_box(const std::array<double, 6>& box, Vector towards, Vector up, const plot::Rect& rect,
+                double zoom) {
   const Axes axes(towards, up);
   Eye eye;
   eye.centre = middle(box), eye.towards = axes.towards, eye.up = axes.up;
   eye.distance = viewing_distance(box);
   const auto s = project(box, eye.centre, axes, eye.distance);
   eye.focal = zoom * std::min(rect.width() / (s.right - s.left), rect.height() / (s.high - s.low));
-  eye.at = {rect.centre().x - eye.focal * (s.left + s.right) / 2, rect.centre().y + eye.focal * (s.low + s.high) / 2};
+  eye.at = {rect.centre().x - eye.focal * (s.left + s.right) / 2,
+            rect.centre().y + eye.focal * (s.low + s.high) / 2};
   return eye;
 }
 

@@ -50,7 +50,8 @@ std::vector<double> Field::values(const read::GrainFrame& frame) const {
   const auto* source = frame.find(array);
   if (!source) throw InputError(fmt::format("{}: no array \"{}\" to colour by", frame.file.string(), array));
   if (component >= source->components || (part == Part::scalar && source->components != 1))
-    throw InputError(fmt::format("{}: array \"{}\" has another number of components than before", frame.file.string(), array));
+    throw InputError(fmt::format("{}: array \"{}\" has another number of components than before",
+                                 frame.file.string(), array));
   std::vector<double> result(frame.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (part == Part::magnitude) {
@@ -67,7 +68,8 @@ std::vector<double> Field::values(const read::GrainFrame& frame) const {
 std::string Field::title(const std::string& units) const {
   if (is_none()) return "";
   const auto* field = known(array);
-  const bool is_part = part == Part::component && component < 3 && !(array == "angular_velocity" && component == 2);
+  const bool is_part =
+      part == Part::component && component < 3 && !(array == "angular_velocity" && component == 2);
   const std::string index = is_part ? std::string(1, "xyz"[component]) : std::to_string(component);
   if (!field) return escaped(array) + (part != Part::component ? "" : fmt::format(" $_{{{}}}$", index));
   std::string label(field->label);
@@ -96,20 +98,23 @@ Field find_field(std::string_view text, const read::GrainFrame& frame) {
   const std::string_view name = text.substr(0, colon);
   const std::string_view part = colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
   const auto* array = frame.find(name);
-  if (!array && name == fields::radius.name && part.empty()) return {std::string(name), Field::Part::scalar, 0};
+  if (!array && name == fields::radius.name && part.empty())
+    return {std::string(name), Field::Part::scalar, 0};
   if (!array) {
     std::vector<std::string> there;
     for (const auto& a : frame.arrays) there.push_back(a.name);
     const auto hint = nearest(name, there);
-    throw InputError(fmt::format("{}: no array \"{}\" to colour by{}, there are: {}", frame.file.string(), name,
-                                 hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint), fmt::join(there, ", ")));
+    throw InputError(fmt::format("{}: no array \"{}\" to colour by{}, there are: {}", frame.file.string(),
+                                 name, hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint),
+                                 fmt::join(there, ", ")));
   }
   Field field{canonical(name, frame), Field::Part::scalar, 0};
   if (array->components == 1 && part.empty()) return field;
   if (array->components > 1 && (part == "magnitude" || (part.empty() && array->components <= 3))) {
     field.part = Field::Part::magnitude;
     // in the plane everything turns about the same axis: the sign is what tells
-    if (part.empty() && field.array == fields::angular_velocity.name && frame.dimensions == 2 && array->components == 3)
+    if (part.empty() && field.array == fields::angular_velocity.name && frame.dimensions == 2 &&
+        array->components == 3)
       field.part = Field::Part::component, field.component = 2;
     return field;
   }
@@ -117,9 +122,10 @@ Field find_field(std::string_view text, const read::GrainFrame& frame) {
   const auto letter = part.size() == 1 ? std::string_view("xyz").find(part[0]) : std::string_view::npos;
   const auto digit = part.size() == 1 ? std::string_view("0123456789").find(part[0]) : std::string_view::npos;
   field.component = static_cast<int>(std::min<std::size_t>(std::min(letter, digit), 99));
-  if (std::min(letter, digit) == std::string_view::npos || array->components == 1 || field.component >= array->components)
-    throw InputError(fmt::format("{}: \"{}\" has {} component{}, allowed after it: {}", frame.file.string(), name,
-                                 array->components, array->components == 1 ? "" : "s",
+  if (std::min(letter, digit) == std::string_view::npos || array->components == 1 ||
+      field.component >= array->components)
+    throw InputError(fmt::format("{}: \"{}\" has {} component{}, allowed after it: {}", frame.file.string(),
+                                 name, array->components, array->components == 1 ? "" : "s",
                                  array->components == 1   ? "nothing"
                                  : array->components <= 3 ? ":x, :y, :z, :magnitude"
                                                           : "one digit, from :0, or :magnitude"));

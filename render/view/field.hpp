@@ -23,8 +23,9 @@ struct Field {
   bool is_signed() const;
 };
 
-/// Resolves `velocity`, `velocity:x`, `force:magnitude`, `none`, or nothing (the speed, if there is one) against the
-/// arrays of a frame. InputError naming the arrays there are, and the nearest, if there is none of that name.
+/// Resolves `velocity`, `velocity:x`, `force:magnitude`, `none`, or nothing (the speed, if there is one)
+/// against the arrays of a frame. InputError naming the arrays there are, and the nearest, if there is none
+/// of that name.
 Field find_field(std::string_view text, const read::GrainFrame& frame);
 
 /// A name from a file as running text of the plots' TeX.

@@ -33,7 +33,8 @@ class FlatPainter : public Painter {
   FlatPainter(const Studio& studio, std::unique_ptr<Furniture>& furniture)
       : studio_(studio),
         context_(studio.style.width, studio.style.height),
-        scene_(context_, studio.style.width, studio.style.height, studio.palette.ground, studio.palette.ground_alpha) {
+        scene_(context_, studio.style.width, studio.style.height, studio.palette.ground,
+               studio.palette.ground_alpha) {
     const auto& survey = studio_.survey;
     const double turn = studio_.style.tilt ? survey.slope : 0;
     map_.cosine = std::cos(turn), map_.sine = std::sin(turn);
@@ -101,7 +102,8 @@ class FlatPainter : public Painter {
     if (!copies()) return;
     for (const double shift : {-period(), period()}) {
       const double x = frame.x[i] + shift;
-      const double beyond = std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
+      const double beyond =
+          std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
       if (beyond < 1) add_disc(frame, i, color, shift, copy_alpha * std::min(1.0, 1.15 * (1 - beyond)));
     }
   }
@@ -117,11 +119,13 @@ class FlatPainter : public Painter {
     disc.edge_width = std::clamp(0.055 * disc.radius, 0.45, 2.0);
     disc.alpha = alpha;
     const auto* angle = frame.find(fields::angle.name);
-    if (studio_.style.spin && !studio_.style.arrows && angle && angle->components == 1 && !bed && disc.radius > 3) {
+    if (studio_.style.spin && !studio_.style.arrows && angle && angle->components == 1 && !bed &&
+        disc.radius > 3) {
       const double turned = angle->at(i);
       disc.mark = 0.6 * disc.radius * map_.direction(std::cos(turned), std::sin(turned));
       disc.mark_radius = 0.13 * disc.radius;
-      disc.mark_color = brightness(disc.fill) > 0.45 ? mix(disc.fill, black, 0.5) : mix(disc.fill, white, 0.62);
+      disc.mark_color =
+          brightness(disc.fill) > 0.45 ? mix(disc.fill, black, 0.5) : mix(disc.fill, white, 0.62);
     }
     scene_.add(disc);
   }
@@ -143,11 +147,12 @@ class FlatPainter : public Painter {
     const auto trail = trails(data);
     for (std::size_t i = 0; i < trail.paths.size(); ++i) {
       const auto& path = trail.paths[i];
-      const double width = std::max(1.0, 0.22 * data.frame.radius[i] * map_.scale);
+      const double width = std::clamp(0.16 * data.frame.radius[i] * map_.scale, 1.0, 4.0);
       const double steps = static_cast<double>(studio_.style.trail);
       for (std::size_t k = 0; k + 1 < path.size(); ++k)
-        scene_.add(Bar{map_(path[k][0], path[k][1]), map_(path[k + 1][0], path[k + 1][1]), width, width, colors[i],
-                       0.75 * (1 - static_cast<double>(k) / steps), 0.75 * (1 - static_cast<double>(k + 1) / steps)});
+        scene_.add(Bar{map_(path[k][0], path[k][1]), map_(path[k + 1][0], path[k + 1][1]), width, width,
+                       colors[i], 0.75 * (1 - static_cast<double>(k) / steps),
+                       0.75 * (1 - static_cast<double>(k + 1) / steps)});
     }
   }
 
@@ -161,7 +166,8 @@ class FlatPainter : public Painter {
         const auto& a = contact.from;
         double dx = contact.to[0] - a[0];
         if (L > 0) dx -= L * std::round(dx / L);  // a contact through the periodic ends
-        const Bar bar{map_(a[0] + shift, a[1]), map_(a[0] + shift + dx, contact.to[1]), width, width, studio_.palette.ink};
+        const Bar bar{map_(a[0] + shift, a[1]), map_(a[0] + shift + dx, contact.to[1]), width, width,
+                      studio_.palette.ink};
         scene_.add(bar);
         Disc joint;
         joint.radius = width / 2, joint.fill = joint.edge = bar.color;
@@ -193,7 +199,8 @@ class FlatPainter : public Painter {
         const Rgb color = casing > 0 ? studio_.palette.ground : studio_.palette.ink;
         const double alpha = casing > 0 ? 0.55 : 1, rim = casing * std::max(0.8, 0.35 * width);
         const Point neck = to - head * u;
-        scene_.add(Bar{from - rim * u, neck + 0.5 * u, width + 2 * rim, width + 2 * rim, color, alpha, alpha});
+        scene_.add(
+            Bar{from - rim * u, neck + 0.5 * u, width + 2 * rim, width + 2 * rim, color, alpha, alpha});
         scene_.add(Bar{neck - rim * u, to + 2 * rim * u, 0.75 * head + 3 * rim, 0, color, alpha, alpha});
       }
   }

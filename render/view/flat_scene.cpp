@@ -26,10 +26,9 @@ namespace {
 
 // Every shape is a rectangle of two triangles. Its corners carry:
 //   place  disc: pixels from the centre; bar: pixels along and across, from the start
-//   shape  disc: radius, width of the edge, mark x, mark y; bar: length, half widths at the start and the end, -1
-//   paint  colour and alpha at that corner
-//   extra  disc: colour of the edge, radius of the mark
-//   mark   colour of the mark, 1 for a disc or 0 for a bar
+//   shape  disc: radius, width of the edge, mark x, mark y; bar: length, half widths at the start and the
+//   end, -1 paint  colour and alpha at that corner extra  disc: colour of the edge, radius of the mark mark
+//   colour of the mark, 1 for a disc or 0 for a bar
 struct Attribute {
   const char* name;
   int components;
@@ -82,13 +81,15 @@ struct FlatScene::Inside {
 
   Inside(OffscreenContext& c, int h) : context(c), height(h) {}
 
-  /// How near the next shape is: each a little nearer than the one before, for the depth test. One step is about ten
-  /// of the depth buffer's, and half a million shapes fit before the eye.
-  float height_of_next() const { return 1e-5f * static_cast<float>(std::min<std::size_t>(places.size() / 12, 800'000)); }
+  /// How near the next shape is: each a little nearer than the one before, for the depth test. One step is
+  /// about ten of the depth buffer's, and half a million shapes fit before the eye.
+  float height_of_next() const {
+    return 1e-5f * static_cast<float>(std::min<std::size_t>(places.size() / 12, 800'000));
+  }
 
   /// One corner: pixel place (y up) and its attributes.
-  void corner(double x, double y, float z, const float (&a)[2], const float (&shape)[4], const float (&paint)[4],
-              const float (&extra)[4], const float (&mark)[4]) {
+  void corner(double x, double y, float z, const float (&a)[2], const float (&shape)[4],
+              const float (&paint)[4], const float (&extra)[4], const float (&mark)[4]) {
     places.insert(places.end(), {static_cast<float>(x), static_cast<float>(y), z});
     values[0].insert(values[0].end(), a, a + 2);
     values[1].insert(values[1].end(), shape, shape + 4);
@@ -174,9 +175,10 @@ void FlatScene::add(const Bar& bar) {
   const float z = inside_->height_of_next();
   for (const auto& [end, side] : {std::pair{0, -1}, {1, -1}, {1, 1}, {0, 1}}) {
     const double along = end ? length + 1 : -1, across = side * reach;
-    const float paint[4] = {f(bar.color.r), f(bar.color.g), f(bar.color.b), f(end ? bar.alpha_to : bar.alpha_from)};
-    inside_->corner(a.x + along * u.x + across * n.x, a.y + along * u.y + across * n.y, z, {f(along), f(across)}, shape,
-                    paint, none, none);
+    const float paint[4] = {f(bar.color.r), f(bar.color.g), f(bar.color.b),
+                            f(end ? bar.alpha_to : bar.alpha_from)};
+    inside_->corner(a.x + along * u.x + across * n.x, a.y + along * u.y + across * n.y, z,
+                    {f(along), f(across)}, shape, paint, none, none);
   }
 }
 

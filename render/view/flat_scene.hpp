@@ -16,9 +16,9 @@ struct Disc {
   double radius = 1;
   Rgb fill, edge;
   double alpha = 1;
-  double edge_width = 0;      ///< of the line inside the rim, 0: none
-  plot::Point mark;           ///< centre of the spin mark, from the disc's centre
-  double mark_radius = 0;     ///< 0: none
+  double edge_width = 0;   ///< of the line inside the rim, 0: none
+  plot::Point mark;        ///< centre of the spin mark, from the disc's centre
+  double mark_radius = 0;  ///< 0: none
   Rgb mark_color;
 };
 
@@ -30,8 +30,8 @@ struct Bar {
   double alpha_from = 1, alpha_to = 1;
 };
 
-/// Discs and bars in a plane, each drawn over those before it. Their edges are exact: a shader works out how much of
-/// every pixel a shape covers, so nothing is sampled more than once.
+/// Discs and bars in a plane, each drawn over those before it. Their edges are exact: a shader works out how
+/// much of every pixel a shape covers, so nothing is sampled more than once.
 class FlatScene {
  public:
   /// Draws on `context`, `width` x `height` pixels.

@@ -8,13 +8,15 @@
 namespace chute::view {
 namespace {
 
-/// Colours were multiplied by alpha while shapes were laid over each other; files and blending want them as they are.
+/// Colours were multiplied by alpha while shapes were laid over each other; files and blending want them as
+/// they are.
 void divide_by_alpha(image::Image& picture) {
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
     const unsigned alpha = picture.rgba[i + 3];
     if (alpha == 0 || alpha == 255) continue;
     for (std::size_t c = 0; c < 3; ++c)
-      picture.rgba[i + c] = static_cast<std::uint8_t>(std::min(255u, (picture.rgba[i + c] * 255u + alpha / 2) / alpha));
+      picture.rgba[i + c] =
+          static_cast<std::uint8_t>(std::min(255u, (picture.rgba[i + c] * 255u + alpha / 2) / alpha));
   }
 }
 
@@ -27,7 +29,8 @@ struct FrameRenderer::Inside {
   image::Image picture;
 
   Inside(const FrameStyle& style, const Survey& survey) : studio(style, survey) {
-    painter = survey.dimensions == 2 ? make_flat_painter(studio, furniture) : make_solid_painter(studio, furniture);
+    painter =
+        survey.dimensions == 2 ? make_flat_painter(studio, furniture) : make_solid_painter(studio, furniture);
   }
 };
 

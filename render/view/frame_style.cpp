@@ -13,15 +13,20 @@ void FrameStyle::check() const {
     if (!holds) throw InputError(what);
   };
   for (int side : {width, height})
-    require(side >= 64 && side <= 8192, fmt::format("picture size {} x {}: each side must be in [64, 8192]", width, height));
+    require(side >= 64 && side <= 8192,
+            fmt::format("picture size {} x {}: each side must be in [64, 8192]", width, height));
   if (range)
     require(std::isfinite(range->first) && std::isfinite(range->second) && range->first < range->second,
-            fmt::format("colour range {}:{}: the first value must be below the second", range->first, range->second));
+            fmt::format("colour range {}:{}: the first value must be below the second", range->first,
+                        range->second));
   if (!map.empty()) ColorMap{map};
   if (const auto& w = camera.window)
-    require((*w)[0] < (*w)[1] && (*w)[2] < (*w)[3], "camera window X0:X1:Y0:Y1: X0 < X1 and Y0 < Y1 are needed");
-  require(camera.zoom > 0.01 && camera.zoom < 100, fmt::format("camera zoom {}: must be in (0.01, 100)", camera.zoom));
-  require(std::abs(camera.elevation) <= 90, fmt::format("camera elevation {}: must be in [-90, 90]", camera.elevation));
+    require((*w)[0] < (*w)[1] && (*w)[2] < (*w)[3],
+            "camera window X0:X1:Y0:Y1: X0 < X1 and Y0 < Y1 are needed");
+  require(camera.zoom > 0.01 && camera.zoom < 100,
+          fmt::format("camera zoom {}: must be in (0.01, 100)", camera.zoom));
+  require(std::abs(camera.elevation) <= 90,
+          fmt::format("camera elevation {}: must be in [-90, 90]", camera.elevation));
   require(trail >= 0 && trail <= 1000, fmt::format("trail of {} frames: must be in [0, 1000]", trail));
 }
 
@@ -32,17 +37,19 @@ std::string FrameStyle::describe() const {
   if (camera.window)
     text += fmt::format(" window={}:{}:{}:{}", (*camera.window)[0], (*camera.window)[1], (*camera.window)[2],
                         (*camera.window)[3]);
-  return text + fmt::format(" eye={}:{}:{} tilt={:d} arrows={:d} chains={:d} copies={:d} occlusion={:d} spin={:d} "
-                            "furniture={:d} trail={}",
-                            camera.azimuth, camera.elevation, camera.zoom, tilt, arrows, chains, copies, occlusion,
-                            spin, furniture, trail);
+  return text + fmt::format(
+                    " eye={}:{}:{} tilt={:d} arrows={:d} chains={:d} copies={:d} occlusion={:d} spin={:d} "
+                    "furniture={:d} trail={}",
+                    camera.azimuth, camera.elevation, camera.zoom, tilt, arrows, chains, copies, occlusion,
+                    spin, furniture, trail);
 }
 
 Palette palette_of(Background background) {
   constexpr auto gray = [](double level) { return Rgb{level, level, level}; };
   if (background == Background::dark)
     return {{.071, .078, .094}, gray(.93), gray(.55), {.27, .28, .31}, {.55, .66, .78}, 1};
-  return {gray(1), gray(.10), gray(.55), gray(.80), {.42, .55, .68}, background == Background::white ? 1. : 0.};
+  return {gray(1),   gray(.10),       gray(.55),
+          gray(.80), {.42, .55, .68}, background == Background::white ? 1. : 0.};
 }
 
 }  // namespace chute::view

@@ -14,8 +14,8 @@ enum class Background { white, dark, transparent };
 struct Camera {
   /// 2D: the part of the plane that is shown, x0 x1 y0 y1 in the files' unit; all of the run if not given.
   std::optional<std::array<double, 4>> window;
-  /// 3D, degrees: the eye goes around the incline's normal, 0 looks across the flow with x to the right, 90 looks up the
-  /// slope at what comes down; elevation is above the incline's plane.
+  /// 3D, degrees: the eye goes around the incline's normal, 0 looks across the flow with x to the right, 90
+  /// looks up the slope at what comes down; elevation is above the incline's plane.
   double azimuth = 30, elevation = 22;
   double zoom = 1;  ///< 3D: > 1 is nearer than what shows the whole run
 };
@@ -23,8 +23,8 @@ struct Camera {
 /// How frames look. The same style and data give the same pixels.
 struct FrameStyle {
   int width = 1920, height = 1080;  ///< pixels
-  /// Point array that colours the grains, with `:x`, `:y`, `:z` or `:magnitude` for one of three components; `none` for
-  /// a plain colour. Empty: the speed if there is one.
+  /// Point array that colours the grains, with `:x`, `:y`, `:z` or `:magnitude` for one of three components;
+  /// `none` for a plain colour. Empty: the speed if there is one.
   std::string color;
   std::string map;                                 ///< empty: viridis, or rdbu for values of both signs
   std::optional<std::pair<double, double>> range;  ///< of the colours; else from the whole run

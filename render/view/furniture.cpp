@@ -19,8 +19,8 @@ using plot::Path;
 using plot::Point;
 using plot::Rect;
 
-constexpr double pixels = 72;  // dpi at which a point is a pixel
-constexpr double small = 0.88; // numbers on the bar, against the type's size
+constexpr double pixels = 72;   // dpi at which a point is a pixel
+constexpr double small = 0.88;  // numbers on the bar, against the type's size
 
 DisplayList blank(double width, double height) {
   DisplayList list;
@@ -118,7 +118,11 @@ std::string length_text(double length, const std::string& units) {
 }
 
 Furniture::Furniture(const FrameStyle& style, const Survey& survey, const ColorMap& map, double aspect)
-    : style_(style), survey_(survey), map_(map), palette_(palette_of(style.background)), title_(survey.field.title(survey.units)) {
+    : style_(style),
+      survey_(survey),
+      map_(map),
+      palette_(palette_of(style.background)),
+      title_(survey.field.title(survey.units)) {
   double title = 0, labels = 0;
   if (!survey.field.is_none()) {
     constexpr double size = 100;  // any: widths in em are asked for
@@ -149,7 +153,8 @@ void Furniture::draw_bar(DisplayList& list) const {
     const double reach = 0.55 * em, sign = high ? 1 : -1;
     const Point tip = upright ? Point{bar.centre().x, (high ? bar.top : bar.bottom) - sign * reach}
                               : Point{(high ? bar.right : bar.left) + sign * reach, bar.centre().y};
-    const Point a = upright ? Point{bar.left, high ? bar.top : bar.bottom} : Point{high ? bar.right : bar.left, bar.top};
+    const Point a =
+        upright ? Point{bar.left, high ? bar.top : bar.bottom} : Point{high ? bar.right : bar.left, bar.top};
     const Point b = upright ? Point{bar.right, a.y} : Point{a.x, bar.bottom};
     list.fill(polygon({a, tip, b}), {c.r, c.g, c.b, 1});
   };
@@ -218,7 +223,8 @@ void Furniture::draw_gravity(DisplayList& list, const Directions& directions) co
   const bool solid = survey_.dimensions == 3;
   const double reach = (solid ? 1.75 : 2.7) * em;
   // the foot of the arrows; they point down, a little to one side
-  const Point foot = solid ? Point{box.left + 1.75 * em, box.top + 1.75 * em} : Point{box.left + 1.15 * em, box.top + 0.5 * em};
+  const Point foot = solid ? Point{box.left + 1.75 * em, box.top + 1.75 * em}
+                           : Point{box.left + 1.15 * em, box.top + 0.5 * em};
   if (solid) {
     constexpr const char* names[] = {"$x$", "$y$", "$z$"};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -237,7 +243,7 @@ void Furniture::draw_gravity(DisplayList& list, const Directions& directions) co
     const Point along{-n.y, n.x};
     list.stroke(segment(tip - (0.6 * em) * along, tip + (0.6 * em) * along), {line * 0.7, {}}, quiet());
     const double from = std::atan2(n.y, n.x), to = std::atan2(directions.gravity.y, directions.gravity.x);
-    if (std::abs(to - from) > 0.02) list.stroke(arc(foot, 1.4 * em, from, to), {line * 0.7, {}}, ink());
+    if (std::abs(to - from) > 0.12) list.stroke(arc(foot, 1.4 * em, from, to), {line * 0.7, {}}, ink());
   }
   const Point g = directions.gravity, tip = foot + reach * g;
   draw_arrow(list, foot, tip, line, 0.6 * em, ink());
@@ -267,7 +273,8 @@ void Furniture::put_on(image::Image& frame, double time) const {
   const Point whole{std::floor(layout_.time.x), std::floor(layout_.time.y)};
   auto list = blank(std::ceil(text.width + layout_.em), above + below);
   plot::draw_text(list, text, {layout_.time.x - whole.x, above + layout_.time.y - whole.y}, ink());
-  lay_over(frame, plot::rasterise_by_cairo(list, pixels), static_cast<int>(whole.x), static_cast<int>(whole.y - above));
+  lay_over(frame, plot::rasterise_by_cairo(list, pixels), static_cast<int>(whole.x),
+           static_cast<int>(whole.y - above));
 }
 
 }  // namespace chute::view

@@ -11,8 +11,8 @@ namespace chute::view {
 
 /// Directions as they are seen in the picture: x to the right, y down, lengths up to 1.
 struct Directions {
-  plot::Point gravity, normal;         ///< where gravity points; into the incline
-  std::array<plot::Point, 3> axes{};   ///< 3D: the coordinate axes
+  plot::Point gravity, normal;        ///< where gravity points; into the incline
+  std::array<plot::Point, 3> axes{};  ///< 3D: the coordinate axes
 };
 
 /// A line of known length in the scene, pixels. Its label stands at its end, or below it.

@@ -20,12 +20,14 @@ struct OsmesaContext : GlContext {
 
   OsmesaContext(int w, int h)
       : buffer(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)), width(w), height(h) {
+    // clang-format off
     const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA,
                               OSMESA_DEPTH_BITS, 24,
                               OSMESA_PROFILE, OSMESA_CORE_PROFILE,
                               OSMESA_CONTEXT_MAJOR_VERSION, 3,
                               OSMESA_CONTEXT_MINOR_VERSION, 3,
                               0};
+    // clang-format on
     context = OSMesaCreateContextAttribs(attributes, nullptr);
     if (!context) throw WorkError("cannot draw: OSMesa gives no OpenGL 3.3 context");
   }
@@ -40,7 +42,8 @@ struct OsmesaContext : GlContext {
 }  // namespace
 
 void pin_environment() {
-  // llvmpipe's results depend on the width of its vectors in the last bit: the narrowest, which every machine has.
+  // llvmpipe's results depend on the width of its vectors in the last bit: the narrowest, which every machine
+  // has.
   ::setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
   std::setlocale(LC_ALL, "C");
 }

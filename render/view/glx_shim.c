@@ -1,13 +1,14 @@
-/* The distribution's VTK finds its OpenGL functions through GLEW, and that GLEW asks GLX, which wants an X server.
- * Here OSMesa draws into memory and there is no server: these functions, exported by the executable, come before
- * libGL's in the dynamic linker's search and send the questions to OSMesa. They exist once per executable
- * (target chute_offscreen). With VTK 9.4, which chooses its window at run time, this file falls away. */
+/* The distribution's VTK finds its OpenGL functions through GLEW, and that GLEW asks GLX, which wants an X
+ * server. Here OSMesa draws into memory and there is no server: these functions, exported by the executable,
+ * come before libGL's in the dynamic linker's search and send the questions to OSMesa. They exist once per
+ * executable (target chute_offscreen). With VTK 9.4, which chooses its window at run time, this file falls
+ * away. */
 #include <GL/osmesa.h>
 #include <string.h>
 
 typedef void (*Function)(void);
 
-/* GLEW's initialisation gives up unless a display answers with some version of GLX and a list of extensions. */
+/* GLEW's initialisation gives up unless a display answers with a version of GLX and a list of extensions. */
 void* glXGetCurrentDisplay(void) {
   static int display;
   return &display;

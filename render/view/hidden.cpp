@@ -18,8 +18,10 @@ struct Seen {
 class Cover {
  public:
   Cover(int width, int height)
-      : width_(width), height_(height),
-        depth_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), std::numeric_limits<float>::infinity()) {}
+      : width_(width),
+        height_(height),
+        depth_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+               std::numeric_limits<float>::infinity()) {}
 
   /// True if every cell that the ball may touch is covered by something nearer than its nearest point.
   bool hides(const Seen& ball, float nearest) const {
@@ -34,7 +36,8 @@ class Cover {
     return true;
   }
 
-  /// Covers the cells that lie inside `share` of the ball's outline with something at least as near as `depth`.
+  /// Covers the cells that lie inside `share` of the ball's outline with something at least as near as
+  /// `depth`.
   void add(const Seen& ball, float share, float depth) {
     const float reach = share * ball.inside;
     if (reach < 0.8f) return;
@@ -42,7 +45,8 @@ class Cover {
     const int bottom = std::min(height_ - 1, static_cast<int>(std::floor(ball.y + reach)) - 1);
     for (int y = top; y <= bottom; ++y) {
       // the farther edge of the row of cells decides
-      const float dy = std::max(std::abs(static_cast<float>(y) - ball.y), std::abs(static_cast<float>(y + 1) - ball.y));
+      const float dy =
+          std::max(std::abs(static_cast<float>(y) - ball.y), std::abs(static_cast<float>(y + 1) - ball.y));
       const float half = reach * reach - dy * dy;
       if (half <= 0) continue;
       const float dx = std::sqrt(half);
@@ -93,8 +97,8 @@ std::vector<Ball> visible(const std::vector<Ball>& balls, const Eye& eye, int wi
     const auto radius = static_cast<float>(balls[i].radius);
     if (cover.hides(seen[i], seen[i].depth - radius)) continue;
     keep[i] = 1;
-    // The surface inside the whole outline is nearer than the centre, inside 0.75 of it by sqrt(1 - 0.75²) = 0.66 radii
-    // and inside 0.95 by 0.31; a little less, for the rays that spread.
+    // The surface inside the whole outline is nearer than the centre, inside 0.75 of it by sqrt(1 - 0.75²) =
+    // 0.66 radii and inside 0.95 by 0.31; a little less, for the rays that spread.
     cover.add(seen[i], 0.95f, seen[i].depth - 0.28f * radius);
     cover.add(seen[i], 0.75f, seen[i].depth - 0.62f * radius);
   }

@@ -7,12 +7,12 @@ namespace chute::view {
 namespace {
 
 // All in em, the size of the type.
-constexpr double margin = 1.3;         // around everything
-constexpr double line = 1.55;          // the line of time above the scene, with the space to it
-constexpr double foot = 1.9;           // the scale bar below the scene, with the space to it
-constexpr double gap = 1.5;            // between the scene and what stands beside it
-constexpr double bar_width = 0.85;     // of the colours
-constexpr double label_gap = 0.5;      // colours to numbers
+constexpr double margin = 1.3;      // around everything
+constexpr double line = 1.55;       // the line of time above the scene, with the space to it
+constexpr double foot = 1.9;        // the scale bar below the scene, with the space to it
+constexpr double gap = 1.5;         // between the scene and what stands beside it
+constexpr double bar_width = 0.85;  // of the colours
+constexpr double label_gap = 0.5;   // colours to numbers
 constexpr double longest_bar = 20;
 constexpr double gravity_width = 4.4, gravity_height = 5.0;
 
@@ -27,7 +27,8 @@ Fit beside(Layout layout, double width, double height, double aspect, double tit
                                      layout.has_gravity ? gravity_width : 0);
   const double space = panel > 0 ? gap * em : 0;
   const double top = layout.has_time ? line * em : 0, bottom = layout.foot * em;
-  const double free_width = width - 2 * margin * em - space - panel, free_height = height - 2 * margin * em - top - bottom;
+  const double free_width = width - 2 * margin * em - space - panel,
+               free_height = height - 2 * margin * em - top - bottom;
   const double w = std::max(1.0, std::min(free_width, free_height * aspect)), h = w / aspect;
   const double left = (width - w - space - panel) / 2, above = (height - h - top - bottom) / 2 + top;
   layout.scene = {left, above, left + w, above + h};
@@ -59,21 +60,25 @@ Fit below(Layout layout, double width, double height, double aspect, double titl
   layout.scene = {left, above, left + w, above + h};
   layout.time = {left, above - (line - 1) * em};
   layout.scale = {left, above + h + 1.25 * em};
-  layout.gravity = {left + w - gravity_width * em, above + h + 0.6 * em, left + w, above + h + (0.6 + gravity_height) * em};
+  layout.gravity = {left + w - gravity_width * em, above + h + 0.6 * em, left + w,
+                    above + h + (0.6 + gravity_height) * em};
   // between the scale bar (8 em) and the arrows: title, then colours
-  const double from = left + em * (layout.has_scale ? 9 : 0), to = left + w - em * (layout.has_gravity ? gravity_width + 2 : 0);
+  const double from = left + em * (layout.has_scale ? 9 : 0),
+               to = left + w - em * (layout.has_gravity ? gravity_width + 2 : 0);
   const double length = std::min(to - from - em * (title + 0.9 + labels), 1.3 * longest_bar * em);
   const double start = from + (to - from - length - em * (title + 0.9)) / 2;
   const double y = above + h + 1.25 * em;
   layout.title = {start, y + 0.3 * em};
-  layout.bar = {start + (title + 0.9) * em, y - bar_width / 2 * em, start + (title + 0.9) * em + length, y + bar_width / 2 * em};
+  layout.bar = {start + (title + 0.9) * em, y - bar_width / 2 * em, start + (title + 0.9) * em + length,
+                y + bar_width / 2 * em};
   layout.upright_bar = false;
   return {layout, length < 7 * em && layout.has_bar ? 0.0 : w};
 }
 
 }  // namespace
 
-Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width, double label_width) {
+Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
+               double label_width) {
   const double width = style.width, height = style.height;
   Layout layout;
   // readable at 400 x 300, quiet at 1920 x 1080

@@ -4,21 +4,24 @@
 
 namespace chute::view {
 
-/// Where everything stands in a frame, in pixels from the top left. The same in all frames of a run; nothing overlaps.
+/// Where everything stands in a frame, in pixels from the top left. The same in all frames of a run; nothing
+/// overlaps.
 struct Layout {
-  double em = 16;          ///< size of the type
-  plot::Rect scene;        ///< the grains
+  double em = 16;    ///< size of the type
+  plot::Rect scene;  ///< the grains
   bool has_bar = false, has_gravity = false, has_scale = false, has_time = false, has_key = false;
-  double foot = 0;         ///< room below the scene, em
-  bool upright_bar = true; ///< colour bar beside the scene; else below it
-  plot::Rect bar;          ///< the colours themselves
-  plot::Point title;       ///< left end of the colour bar's title
-  plot::Point time;        ///< left end of the time's line
-  plot::Point scale;       ///< left end of the scale bar
-  plot::Rect gravity;      ///< the arrows that show where gravity points
+  double foot = 0;          ///< room below the scene, em
+  bool upright_bar = true;  ///< colour bar beside the scene; else below it
+  plot::Rect bar;           ///< the colours themselves
+  plot::Point title;        ///< left end of the colour bar's title
+  plot::Point time;         ///< left end of the time's line
+  plot::Point scale;        ///< left end of the scale bar
+  plot::Rect gravity;       ///< the arrows that show where gravity points
 };
 
-/// `aspect` = width / height of what is to be seen. `title_width` and `label_width` in em: of the colour bar's texts.
-Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width, double label_width);
+/// `aspect` = width / height of what is to be seen. `title_width` and `label_width` in em: of the colour
+/// bar's texts.
+Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
+               double label_width);
 
 }  // namespace chute::view

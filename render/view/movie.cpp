@@ -16,18 +16,57 @@ namespace {
 using Words = std::vector<std::string>;
 
 Words input_words(int width, int height, double rate) {
-  return {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba",
-          "-video_size", fmt::format("{}x{}", width, height), "-framerate", fmt::format("{}", rate), "-i", "pipe:0"};
+  return {"ffmpeg",
+          "-nostdin",
+          "-hide_banner",
+          "-loglevel",
+          "error",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pixel_format",
+          "rgba",
+          "-video_size",
+          fmt::format("{}x{}", width, height),
+          "-framerate",
+          fmt::format("{}", rate),
+          "-i",
+          "pipe:0"};
 }
 
-// H.264's colours are sampled at half the size: sides must be even. BT.709, said in the file, so that players show the
-// colours that were drawn. As many threads everywhere, since they change the bytes; no versions or times in the file.
+// H.264's colours are sampled at half the size: sides must be even. BT.709, said in the file, so that players
+// show the colours that were drawn. As many threads everywhere, since they change the bytes; no versions or
+// times in the file.
 Words h264_words() {
-  return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,scale=out_color_matrix=bt709:out_range=tv"
-                 ":flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p",
-          "-c:v", "libx264", "-preset", "medium", "-crf", "19", "-tune", "animation", "-threads", "4",
-          "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv",
-          "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags", "+faststart", "-f", "mp4"};
+  return {"-vf",
+          "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,scale=out_color_matrix=bt709:out_range=tv"
+          ":flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "medium",
+          "-crf",
+          "19",
+          "-tune",
+          "animation",
+          "-threads",
+          "4",
+          "-colorspace",
+          "bt709",
+          "-color_primaries",
+          "bt709",
+          "-color_trc",
+          "iec61966-2-1",
+          "-color_range",
+          "tv",
+          "-fflags",
+          "+bitexact",
+          "-flags:v",
+          "+bitexact",
+          "-movflags",
+          "+faststart",
+          "-f",
+          "mp4"};
 }
 
 void over_ground(image::Image& picture, Rgb ground) {
@@ -36,7 +75,8 @@ void over_ground(image::Image& picture, Rgb ground) {
     const double alpha = picture.rgba[i + 3] / 255.0;
     if (alpha == 1) continue;
     for (std::size_t c = 0; c < 3; ++c)
-      picture.rgba[i + c] = static_cast<std::uint8_t>(std::lround(alpha * picture.rgba[i + c] + (1 - alpha) * rgb[c]));
+      picture.rgba[i + c] =
+          static_cast<std::uint8_t>(std::lround(alpha * picture.rgba[i + c] + (1 - alpha) * rgb[c]));
     picture.rgba[i + 3] = 255;
   }
 }
@@ -52,7 +92,12 @@ struct Movie::Inside {
   image::Image flat;
 
   Inside(fs::path p, fs::path t, int w, int h, bool keeps_alpha, Rgb g, const Words& words)
-      : path(std::move(p)), temporary(std::move(t)), width(w), height(h), transparent(keeps_alpha), ground(g) {
+      : path(std::move(p)),
+        temporary(std::move(t)),
+        width(w),
+        height(h),
+        transparent(keeps_alpha),
+        ground(g) {
     encode([&] { encoder = std::make_unique<Encoder>(words); });
   }
   ~Inside() {
@@ -82,7 +127,8 @@ Movie::Kind Movie::kind_of(const fs::path& path) {
   throw InputError(path.string() + ": the movie's name must end in .mp4, .gif or .png");
 }
 
-Movie::Movie(const fs::path& path, int width, int height, double frames_per_second, Rgb ground, const fs::path& palette) {
+Movie::Movie(const fs::path& path, int width, int height, double frames_per_second, Rgb ground,
+             const fs::path& palette) {
   const auto kind = kind_of(path);
   std::error_code error;
   if (!path.parent_path().empty()) fs::create_directories(path.parent_path(), error);
@@ -91,9 +137,11 @@ Movie::Movie(const fs::path& path, int width, int height, double frames_per_seco
   const auto append = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
   if (kind == Kind::h264) append(h264_words());
   if (kind == Kind::gif && palette.empty())
-    append({"-vf", "palettegen=stats_mode=full", "-frames:v", "1", "-update", "1", "-f", "image2", "-c:v", "png"});
+    append({"-vf", "palettegen=stats_mode=full", "-frames:v", "1", "-update", "1", "-f", "image2", "-c:v",
+            "png"});
   else if (kind == Kind::gif)
-    append({"-i", palette.string(), "-lavfi", "paletteuse=dither=none:diff_mode=rectangle", "-loop", "0", "-f", "gif"});
+    append({"-i", palette.string(), "-lavfi", "paletteuse=dither=none:diff_mode=rectangle", "-loop", "0",
+            "-f", "gif"});
   if (kind == Kind::apng) append({"-c:v", "apng", "-pred", "mixed", "-plays", "0", "-f", "apng"});
   words.push_back("file:" + temporary.string());
   inside_ = std::make_unique<Inside>(path, temporary, width, height, kind == Kind::apng, ground, words);

@@ -7,16 +7,16 @@
 
 namespace chute::view {
 
-/// A film that ffmpeg makes of pictures as they come: H.264 (.mp4), GIF (.gif) or animated PNG (.png). It appears whole
-/// when finish() returns; if it is not finished, nothing is left.
+/// A film that ffmpeg makes of pictures as they come: H.264 (.mp4), GIF (.gif) or animated PNG (.png). It
+/// appears whole when finish() returns; if it is not finished, nothing is left.
 class Movie {
  public:
   enum class Kind { h264, gif, apng };
   /// InputError if the extension says none of them.
   static Kind kind_of(const std::filesystem::path& path);
 
-  /// `ground` shows through where pictures are transparent and the format knows no transparency. A GIF needs the palette
-  /// that a PalettePicker made. WorkError if ffmpeg cannot be started.
+  /// `ground` shows through where pictures are transparent and the format knows no transparency. A GIF needs
+  /// the palette that a PalettePicker made. WorkError if ffmpeg cannot be started.
   Movie(const std::filesystem::path& path, int width, int height, double frames_per_second, Rgb ground,
         const std::filesystem::path& palette = {});
   ~Movie();

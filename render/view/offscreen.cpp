@@ -1,7 +1,8 @@
 #include "view/offscreen.hpp"
 
+// clang-format off: GLEW insists on coming before anything else of OpenGL
 #include <vtk_glew.h>
-// GLEW insists on coming before anything else of OpenGL
+// clang-format on
 #include <vtkCallbackCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>

@@ -7,7 +7,8 @@ class vtkRenderWindow;
 
 namespace chute::view {
 
-/// VTK's render window on an OpenGL context in memory; no display is asked. One per thread; several may be used in turn.
+/// VTK's render window on an OpenGL context in memory; no display is asked. One per thread; several may be
+/// used in turn.
 class OffscreenContext {
  public:
   /// `width` x `height` pixels. WorkError if no context can be had.
@@ -19,8 +20,8 @@ class OffscreenContext {
   /// The window on which renderers are put.
   vtkRenderWindow* window() const;
 
-  /// Draws the window's renderers and reads the pixels as they are in the buffer: the top row first, alpha multiplied
-  /// in. `into` is reused if it has the size.
+  /// Draws the window's renderers and reads the pixels as they are in the buffer: the top row first, alpha
+  /// multiplied in. `into` is reused if it has the size.
   void draw(image::Image& into);
 
   /// True once any context was made in this process: its drawing threads do not survive a fork.

@@ -44,7 +44,8 @@ Trail trails(const FrameData& data) {
   std::vector<std::unordered_map<long long, std::size_t>> places(data.earlier.size());
   for (std::size_t k = 0; k < data.earlier.size(); ++k)
     if (const auto* earlier_ids = data.earlier[k]->find(fields::id.name); ids && earlier_ids)
-      for (std::size_t i = 0; i < data.earlier[k]->size(); ++i) places[k][std::llround(earlier_ids->at(i))] = i;
+      for (std::size_t i = 0; i < data.earlier[k]->size(); ++i)
+        places[k][std::llround(earlier_ids->at(i))] = i;
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (frame.is_fixed(i)) continue;
     std::array<double, 3> here{frame.x[i], frame.y[i], frame.z[i]};

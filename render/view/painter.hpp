@@ -47,7 +47,8 @@ std::unique_ptr<Painter> make_solid_painter(const Studio& studio, std::unique_pt
 
 /// A grain's place at an earlier time, taken to the periodic copy nearest to `now`.
 struct Trail {
-  std::vector<std::vector<std::array<double, 3>>> paths;  ///< per grain of the newest frame, the newest place first
+  std::vector<std::vector<std::array<double, 3>>>
+      paths;  ///< per grain of the newest frame, the newest place first
 };
 Trail trails(const FrameData& data);
 

@@ -53,8 +53,8 @@ class FrameDrawer {
  public:
   FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey)
       : job_(job), frames_(frames), survey_(survey) {
-    common_.add(fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(), survey.describe(),
-                            job.radius.value_or(0)));
+    common_.add(fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(),
+                            survey.describe(), job.radius.value_or(0)));
   }
 
   /// True if frame `number` had to be drawn.
@@ -63,9 +63,11 @@ class FrameDrawer {
     const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
     for (std::size_t i = oldest; i < number; ++i) load(i);
     const std::string bytes = read_file(file.path);
-    const std::string network = job_.style.chains && !file.contacts.empty() ? read_file(file.contacts) : std::string();
+    const std::string network =
+        job_.style.chains && !file.contacts.empty() ? read_file(file.contacts) : std::string();
 
-    const fs::path picture = job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
+    const fs::path picture =
+        job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
     Hash hash = common_;
     hash.add(fmt::format("{}", survey_.times[number]));
     hash.add(bytes);
@@ -78,13 +80,15 @@ class FrameDrawer {
 
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
     const auto frame = read::parse_frame(bytes, file.path, job_.radius);
-    const auto contacts = network.empty() ? std::vector<read::Contact>() : read::parse_contacts(network, file.contacts);
+    const auto contacts =
+        network.empty() ? std::vector<read::Contact>() : read::parse_contacts(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
     for (std::size_t i = oldest; i < number; ++i) trail.push_back(&earlier_[i - first_earlier_].frame);
     const auto& drawn = renderer_->draw(frame, survey_.times[number], contacts, trail);
     if (!picture.empty())
-      image::write_png(picture, drawn, {{"Software", "chute"}, {"Source", file.path.filename().string()},
-                                        {drawn_from, hash.text()}});
+      image::write_png(
+          picture, drawn,
+          {{"Software", "chute"}, {"Source", file.path.filename().string()}, {drawn_from, hash.text()}});
     if (wanted) into = drawn;
     return true;
   }
@@ -111,7 +115,8 @@ class FrameDrawer {
     Hash hash;
     hash.add(bytes);
     earlier_.push_back({read::parse_frame(bytes, frames_[i].path, job_.radius), hash.text()});
-    while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64) earlier_.pop_front(), ++first_earlier_;
+    while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64)
+      earlier_.pop_front(), ++first_earlier_;
   }
 };
 
@@ -120,29 +125,35 @@ class FrameDrawer {
 std::vector<std::size_t> frame_numbers(const FrameRange& range, std::size_t count) {
   if (range.step == 0) throw InputError("frames: the step must be at least 1");
   std::vector<std::size_t> numbers;
-  for (std::size_t i = range.first; i < std::min(count, range.end.value_or(count)); i += range.step) numbers.push_back(i);
-  if (numbers.empty()) throw InputError(fmt::format("frames: none in that range, the run has {} (from 0)", count));
+  for (std::size_t i = range.first; i < std::min(count, range.end.value_or(count)); i += range.step)
+    numbers.push_back(i);
+  if (numbers.empty())
+    throw InputError(fmt::format("frames: none in that range, the run has {} (from 0)", count));
   return numbers;
 }
 
 RenderReport render_run(const RenderJob& job) {
   job.style.check();
-  if (job.output.empty() && job.movie.empty()) throw InputError("neither a folder for pictures nor a movie is asked for");
+  if (job.output.empty() && job.movie.empty())
+    throw InputError("neither a folder for pictures nor a movie is asked for");
   if (!(job.frames_per_second > 0 && job.frames_per_second <= 1000))
     throw InputError(fmt::format("{} frames per second: must be in (0, 1000]", job.frames_per_second));
-  if (job.jobs < 1 || job.jobs > 1024) throw InputError(fmt::format("{} jobs: must be in [1, 1024]", job.jobs));
+  if (job.jobs < 1 || job.jobs > 1024)
+    throw InputError(fmt::format("{} jobs: must be in [1, 1024]", job.jobs));
   if (job.radius && !(*job.radius > 0)) throw InputError(fmt::format("radius {}: must be > 0", *job.radius));
   const bool is_gif = !job.movie.empty() && Movie::kind_of(job.movie) == Movie::Kind::gif;
 
   const auto frames = read::find_frames(job.source);
   const auto numbers = frame_numbers(job.frames, frames.size());
-  if (job.style.chains && std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
-    throw InputError(job.source.string() + ": the run kept no contact networks, which force chains are drawn from");
+  if (job.style.chains &&
+      std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
+    throw InputError(job.source.string() +
+                     ": the run kept no contact networks, which force chains are drawn from");
   const auto tell = [&](const char* what, std::size_t done, std::size_t all) {
     if (job.progress) job.progress(what, done, all);
   };
-  const Survey found = survey(frames, job.style, job.radius,
-                              [&](std::size_t done) { tell("reading", done, frames.size()); });
+  const Survey found =
+      survey(frames, job.style, job.radius, [&](std::size_t done) { tell("reading", done, frames.size()); });
   if (!job.output.empty()) {
     std::error_code error;
     fs::create_directories(job.output, error);
@@ -152,14 +163,15 @@ RenderReport render_run(const RenderJob& job) {
   RenderReport report;
   const auto& style = job.style;
   const auto draw = [&](const std::vector<std::size_t>& which, bool wanted, const Take& take) {
-    draw_all(which.size(), job.jobs, style.width, style.height, wanted,
-             [&]() -> Draw {
-               auto drawer = std::make_shared<FrameDrawer>(job, frames, found);
-               return [drawer, &which](std::size_t i, bool pixels, image::Image& into) {
-                 return (*drawer)(which[i], pixels, into);
-               };
-             },
-             take);
+    draw_all(
+        which.size(), job.jobs, style.width, style.height, wanted,
+        [&]() -> Draw {
+          auto drawer = std::make_shared<FrameDrawer>(job, frames, found);
+          return [drawer, &which](std::size_t i, bool pixels, image::Image& into) {
+            return (*drawer)(which[i], pixels, into);
+          };
+        },
+        take);
   };
   const auto count = [&](std::size_t i, bool drawn) {
     ++(drawn ? report.drawn : report.kept);
@@ -176,11 +188,13 @@ RenderReport render_run(const RenderJob& job) {
     palette = std::make_unique<PalettePicker>(job.movie, style.width, style.height, ground);
     std::vector<std::size_t> some;
     const std::size_t all = numbers.size(), samples = std::min<std::size_t>(all, 12);
-    for (std::size_t k = 0; k < samples; ++k) some.push_back(numbers[samples > 1 ? k * (all - 1) / (samples - 1) : 0]);
+    for (std::size_t k = 0; k < samples; ++k)
+      some.push_back(numbers[samples > 1 ? k * (all - 1) / (samples - 1) : 0]);
     draw(some, true, [&](std::size_t, bool, const image::Image& picture) { palette->add(picture); });
     palette->finish();
   }
-  Movie movie(job.movie, style.width, style.height, job.frames_per_second, ground, palette ? palette->file() : fs::path());
+  Movie movie(job.movie, style.width, style.height, job.frames_per_second, ground,
+              palette ? palette->file() : fs::path());
   draw(numbers, true, [&](std::size_t i, bool drawn, const image::Image& picture) {
     movie.add(picture);
     count(i, drawn);

@@ -19,14 +19,14 @@ struct FrameRange {
 
 /// What is to be drawn of a run.
 struct RenderJob {
-  std::filesystem::path source;          ///< see read::find_frames
+  std::filesystem::path source;  ///< see read::find_frames
   FrameStyle style;
-  std::filesystem::path output;          ///< folder for NNNNNN.png; empty: no pictures are kept
-  std::filesystem::path movie;           ///< .mp4, .gif or .png; empty: none
+  std::filesystem::path output;  ///< folder for NNNNNN.png; empty: no pictures are kept
+  std::filesystem::path movie;   ///< .mp4, .gif or .png; empty: none
   double frames_per_second = 25;
   FrameRange frames;
-  int jobs = 1;                          ///< processes that draw at once
-  std::optional<double> radius;          ///< for files without radii
+  int jobs = 1;                  ///< processes that draw at once
+  std::optional<double> radius;  ///< for files without radii
   /// Hears what is being done ("reading", "drawing"), how much of it is done and how much there is.
   std::function<void(const char*, std::size_t, std::size_t)> progress;
 };
@@ -36,9 +36,10 @@ struct RenderReport {
   std::size_t kept = 0;  ///< pictures that were there already, drawn from the same
 };
 
-/// Draws a run: looks at all frames once for what must not change (colour range, camera), then draws those asked for.
-/// Pictures that exist and were drawn from the same files in the same style are kept. The same bytes whatever `jobs`
-/// says. InputError for a wrong file, style or range; WorkError if something fails; no half-written file is left.
+/// Draws a run: looks at all frames once for what must not change (colour range, camera), then draws those
+/// asked for. Pictures that exist and were drawn from the same files in the same style are kept. The same
+/// bytes whatever `jobs` says. InputError for a wrong file, style or range; WorkError if something fails; no
+/// half-written file is left.
 RenderReport render_run(const RenderJob& job);
 
 /// The numbers of the frames in `range` of `count`; InputError if there are none.

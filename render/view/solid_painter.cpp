@@ -18,7 +18,8 @@ class SolidPainter : public Painter {
   SolidPainter(const Studio& studio, std::unique_ptr<Furniture>& furniture)
       : studio_(studio),
         context_(SolidScene::samples * studio.style.width, SolidScene::samples * studio.style.height),
-        scene_(context_, studio.style.width, studio.style.height, studio.palette.ground, studio.palette.ground_alpha) {
+        scene_(context_, studio.style.width, studio.style.height, studio.palette.ground,
+               studio.palette.ground_alpha) {
     const auto& survey = studio_.survey;
     const auto& g = survey.gravity;
     const std::size_t n = static_cast<std::size_t>(survey.up_axis);
@@ -30,14 +31,17 @@ class SolidPainter : public Painter {
     Vector up = normal;
     if (studio_.style.tilt && strength > 0) up = {-down[0], -down[1], -down[2]};
     const auto& camera = studio_.style.camera;
-    const double azimuth = camera.azimuth * std::numbers::pi / 180, elevation = camera.elevation * std::numbers::pi / 180;
+    const double azimuth = camera.azimuth * std::numbers::pi / 180,
+                 elevation = camera.elevation * std::numbers::pi / 180;
     Vector towards;
     for (std::size_t c = 0; c < 3; ++c)
-      towards[c] = std::cos(elevation) * (std::sin(azimuth) * (c == 0) + std::cos(azimuth) * side[c]) + std::sin(elevation) * normal[c];
+      towards[c] = std::cos(elevation) * (std::sin(azimuth) * (c == 0) + std::cos(azimuth) * side[c]) +
+                   std::sin(elevation) * normal[c];
 
     box_ = survey.bounds;
     if (copies()) box_[0] -= copy_reach * period(), box_[1] += copy_reach * period();
-    furniture = std::make_unique<Furniture>(studio_.style, survey, studio_.map, Eye::aspect(box_, towards, up));
+    furniture =
+        std::make_unique<Furniture>(studio_.style, survey, studio_.map, Eye::aspect(box_, towards, up));
     eye_ = Eye::on_box(box_, towards, up, furniture->layout().scene, camera.zoom);
     const double depth = std::hypot(box_[1] - box_[0], box_[3] - box_[2], box_[5] - box_[4]);
     scene_.look(eye_, {eye_.distance - depth, eye_.distance + depth});
@@ -50,7 +54,8 @@ class SolidPainter : public Painter {
       axis[c] = 1;
       directions.axes[c] = eye_.seen_direction(axis);
     }
-    furniture->stand(scale_bar(furniture->layout().em), directions, studio_.arrow_length() * eye_.focal / eye_.distance);
+    furniture->stand(scale_bar(furniture->layout().em), directions,
+                     studio_.arrow_length() * eye_.focal / eye_.distance);
   }
 
   void paint(const FrameData& data, image::Image& into) override {
@@ -77,11 +82,12 @@ class SolidPainter : public Painter {
   double period() const { return studio_.survey.domain[1] - studio_.survey.domain[0]; }
   bool copies() const { return studio_.style.copies && period() > 0; }
 
-  /// Along the lower edge of the box that is nearest to the eye, a little outside: lengths are true there.
+  /// Along a lower edge of the box that is near to the eye, a little outside: lengths are true there. Of the
+  /// two, the one that is seen less from its end.
   ScaleBar scale_bar(double em) const {
     const std::size_t n = static_cast<std::size_t>(studio_.survey.up_axis), side = 3 - n;
     ScaleBar best;
-    double longest = 0;
+    double largest = 0;  // pixels per unit
     for (const std::size_t along : {std::size_t{0}, side}) {
       const std::size_t other = along == 0 ? side : 0;
       Vector a{}, b{};
@@ -90,9 +96,9 @@ class SolidPainter : public Painter {
       a[other] = b[other] = box_[2 * other + far_side] + (far_side ? 0.9 : -0.9) * studio_.survey.diameter;
       a[along] = box_[2 * along], b[along] = box_[2 * along + 1];
       const auto whole = eye_.seen(b) - eye_.seen(a);
-      const double pixels = std::hypot(whole.x, whole.y);
-      if (pixels <= longest) continue;
-      longest = pixels;
+      const double pixels = std::hypot(whole.x, whole.y), scale = pixels / (b[along] - a[along]);
+      if (scale <= largest) continue;
+      largest = scale;
       best.length = plain_length((b[along] - a[along]) * std::min(0.5, std::max(4 * em / pixels, 0.3)));
       (whole.x >= 0 ? b : a)[along] = whole.x >= 0 ? a[along] + best.length : b[along] - best.length;
       best.from = eye_.seen(whole.x >= 0 ? a : b), best.to = eye_.seen(whole.x >= 0 ? b : a);
@@ -109,9 +115,12 @@ class SolidPainter : public Painter {
     if (!copies()) return;
     for (const double shift : {-period(), period()}) {
       const double x = frame.x[i] + shift;
-      const double beyond = std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
+      const double beyond =
+          std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
       if (beyond < 1)
-        balls_.push_back({{x, frame.y[i], frame.z[i]}, r, mix(color, studio_.palette.ground, 0.6 + 0.3 * std::max(0.0, beyond))});
+        balls_.push_back({{x, frame.y[i], frame.z[i]},
+                          r,
+                          mix(color, studio_.palette.ground, 0.6 + 0.3 * std::max(0.0, beyond))});
     }
   }
 
@@ -131,13 +140,15 @@ class SolidPainter : public Painter {
     if (studio_.survey.force <= 0) return;
     const auto& domain = studio_.survey.domain;
     for (const auto& contact : contacts) {
-      const double radius = 0.22 * studio_.survey.diameter * std::min(1.3, contact.force / studio_.survey.force);
+      const double radius =
+          0.22 * studio_.survey.diameter * std::min(1.3, contact.force / studio_.survey.force);
       if (radius < 0.004 * studio_.survey.diameter) continue;
       Vector to = contact.to;
       for (std::size_t c = 0; c < 3; ++c)
         if (const double L = domain[2 * c + 1] - domain[2 * c]; L > 0)
           to[c] -= L * std::round((to[c] - contact.from[c]) / L);  // a contact through the periodic ends
-      rods_.push_back({contact.from, to, radius, radius, mix(studio_.palette.ink, studio_.palette.ground, 0.2)});
+      rods_.push_back(
+          {contact.from, to, radius, radius, mix(studio_.palette.ink, studio_.palette.ground, 0.2)});
     }
   }
 

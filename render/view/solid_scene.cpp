@@ -32,7 +32,9 @@
 namespace chute::view {
 namespace {
 
-unsigned char byte(double x) { return static_cast<unsigned char>(std::lround(255 * std::clamp(x, 0.0, 1.0))); }
+unsigned char byte(double x) {
+  return static_cast<unsigned char>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
+}
 
 /// Points with a colour each, and whatever is drawn on them.
 struct Colored {
@@ -189,7 +191,8 @@ void SolidScene::Inside::add_rod(const Rod& rod, vtkCellArray* triangles) {
   for (std::size_t c = 0; c < 3; ++c) a[c] -= along[least] * along[c];
   const double norm = std::sqrt(1 - along[least] * along[least]);
   for (double& x : a) x /= norm;
-  for (std::size_t c = 0; c < 3; ++c) b[c] = along[(c + 1) % 3] * a[(c + 2) % 3] - along[(c + 2) % 3] * a[(c + 1) % 3];
+  for (std::size_t c = 0; c < 3; ++c)
+    b[c] = along[(c + 1) % 3] * a[(c + 2) % 3] - along[(c + 2) % 3] * a[(c + 1) % 3];
   const double slope = (rod.radius_from - rod.radius_to) / length;
   vtkIdType first = 0;
   for (int i = 0; i < sides; ++i) {

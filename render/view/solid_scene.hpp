@@ -14,13 +14,15 @@ using Vector = std::array<double, 3>;
 
 /// How a space is seen: an eye that looks at `centre` with `up` upwards.
 struct Eye {
-  Vector centre{}, towards{0, -1, 0}, up{0, 0, 1};  ///< `towards` points from the centre to the eye, unit length
-  double distance = 1;                              ///< from the centre, in the files' unit
-  double focal = 1;                                 ///< pixels per unit slope: a length l at distance D is focal l / D long
-  plot::Point at;                                   ///< where the centre is seen, pixels from the top left
+  Vector centre{}, towards{0, -1, 0},
+      up{0, 0, 1};      ///< `towards` points from the centre to the eye, unit length
+  double distance = 1;  ///< from the centre, in the files' unit
+  double focal = 1;     ///< pixels per unit slope: a length l at distance D is focal l / D long
+  plot::Point at;       ///< where the centre is seen, pixels from the top left
 
   /// The eye that sees a box fill `rect` (pixels) as well as can be; `zoom` > 1 is larger.
-  static Eye on_box(const std::array<double, 6>& box, Vector towards, Vector up, const plot::Rect& rect, double zoom);
+  static Eye on_box(const std::array<double, 6>& box, Vector towards, Vector up, const plot::Rect& rect,
+                    double zoom);
   /// Width / height of a box so seen.
   static double aspect(const std::array<double, 6>& box, Vector towards, Vector up);
   plot::Point seen(const Vector& point) const;

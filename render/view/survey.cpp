@@ -18,7 +18,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Rounds away from zero to a plain number, a tenth larger on average: the ends of a colour bar should be readable.
+/// Rounds away from zero to a plain number, a tenth larger on average: the ends of a colour bar should be
+/// readable.
 double round_up(double x) {
   if (x == 0 || !std::isfinite(x)) return x;
   const double power = std::pow(10, std::floor(std::log10(std::abs(x)))), leading = std::abs(x) / power;
@@ -115,13 +116,15 @@ void Surveyor::choose_range() {
   } else if (values_.values.empty() || s.field.is_none()) {
     s.low = 0, s.high = 1;
   } else if (s.field.is_signed() || (values_.lowest < 0 && values_.highest > 0)) {
-    const double end = round_up(std::max(std::abs(values_.quantile(0.0025)), std::abs(values_.quantile(0.9975))));
+    const double end =
+        round_up(std::max(std::abs(values_.quantile(0.0025)), std::abs(values_.quantile(0.9975))));
     s.high = end > 0 ? end : 1, s.low = -s.high, s.diverging = true;
   } else {
     s.high = values_.quantile(0.995), s.low = values_.quantile(0.005);
     const bool from_zero = s.field.part == Field::Part::magnitude || (s.low >= 0 && s.low < 0.4 * s.high);
     if (from_zero) s.low = 0, s.high = round_up(s.high);
-    if (!(s.high > s.low)) s.high = s.low != 0 ? s.low + std::abs(s.low) / 2 : 1, s.low -= s.low != 0 ? std::abs(s.low) / 2 : 0;
+    if (!(s.high > s.low))
+      s.high = s.low != 0 ? s.low + std::abs(s.low) / 2 : 1, s.low -= s.low != 0 ? std::abs(s.low) / 2 : 0;
   }
   const double slack = 1e-9 * (s.high - s.low);
   s.exceeds_low = values_.seen && values_.lowest < s.low - slack;
@@ -133,7 +136,8 @@ Survey Surveyor::finish() {
   auto& s = found_;
   if (s.dimensions == 3 && s.up_axis == 1 && std::abs(s.gravity[1]) <= std::abs(s.gravity[2])) s.up_axis = 2;
   choose_range();
-  s.diameter = moving_ ? diameters_ / static_cast<double>(moving_) : all_diameters_ / static_cast<double>(all_);
+  s.diameter =
+      moving_ ? diameters_ / static_cast<double>(moving_) : all_diameters_ / static_cast<double>(all_);
   s.speed = speeds_.quantile(0.99);
   s.force = forces_.quantile(0.99);
   s.time_decimals = s.times.size() > 1 ? decimals_for(s.times, 4) : decimals_for(s.times, 2);
@@ -141,16 +145,16 @@ Survey Surveyor::finish() {
 }
 
 std::string Survey::describe() const {
-  return fmt::format("{} {} {} bounds={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
-                     "diameter={} speed={} force={} fixed={:d} decimals={} times={:d}",
-                     dimensions, up_axis, slope, fmt::join(bounds, ","), fmt::join(turned, ","), fmt::join(domain, ","),
-                     fmt::join(gravity, ","), units, field.array, static_cast<int>(field.part), field.component, low,
-                     high, diverging, exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals,
-                     has_times);
+  return fmt::format(
+      "{} {} {} bounds={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
+      "diameter={} speed={} force={} fixed={:d} decimals={} times={:d}",
+      dimensions, up_axis, slope, fmt::join(bounds, ","), fmt::join(turned, ","), fmt::join(domain, ","),
+      fmt::join(gravity, ","), units, field.array, static_cast<int>(field.part), field.component, low, high,
+      diverging, exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times);
 }
 
-Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style, std::optional<double> radius,
-              const std::function<void(std::size_t)>& tell) {
+Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
+              std::optional<double> radius, const std::function<void(std::size_t)>& tell) {
   Surveyor surveyor(style);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     surveyor.see(read::read_frame(frames[i].path, radius), frames[i].time);

@@ -12,25 +12,26 @@
 
 namespace chute::view {
 
-/// What a first look at all frames of a run tells: everything that must not change from one frame to the next.
+/// What a first look at all frames of a run tells: everything that must not change from one frame to the
+/// next.
 struct Survey {
   int dimensions = 2;
-  int up_axis = 1;                ///< the incline's normal: 1 (y) in the plane, else where gravity points most, or z
-  double slope = 0;               ///< radians: gravity is turned that much from the normal, towards +x
-  std::array<double, 6> bounds{}; ///< of all grains, radii included: x0 x1 y0 y1 z0 z1, in the files' frame
-  std::array<double, 4> turned{}; ///< 2D: the same as seen in the picture (turned by the slope if tilted)
+  int up_axis = 1;   ///< the incline's normal: 1 (y) in the plane, else where gravity points most, or z
+  double slope = 0;  ///< radians: gravity is turned that much from the normal, towards +x
+  std::array<double, 6> bounds{};  ///< of all grains, radii included: x0 x1 y0 y1 z0 z1, in the files' frame
+  std::array<double, 4> turned{};  ///< 2D: the same as seen in the picture (turned by the slope if tilted)
   std::array<double, 6> domain{};
   std::array<double, 3> gravity{};
   std::string units;
   Field field;
-  bool diverging = false;               ///< values of both signs
-  double low = 0, high = 1;             ///< colour range
+  bool diverging = false;                          ///< values of both signs
+  double low = 0, high = 1;                        ///< colour range
   bool exceeds_low = false, exceeds_high = false;  ///< some values lie outside
-  double diameter = 1;                  ///< mean of the moving grains (of all, if none moves)
-  double speed = 0;                     ///< nearly the largest, for the length of arrows
-  double force = 0;                     ///< nearly the largest contact force, for the width of chains
-  bool has_fixed = false;               ///< a bed, and grains that move over it
-  std::vector<double> times;            ///< of each frame
+  double diameter = 1;                             ///< mean of the moving grains (of all, if none moves)
+  double speed = 0;                                ///< nearly the largest, for the length of arrows
+  double force = 0;           ///< nearly the largest contact force, for the width of chains
+  bool has_fixed = false;     ///< a bed, and grains that move over it
+  std::vector<double> times;  ///< of each frame
   bool has_times = false;
   int time_decimals = 2;
 
@@ -38,9 +39,10 @@ struct Survey {
   std::string describe() const;
 };
 
-/// Reads every frame once. `tell` hears how many are done. InputError as read_frame; also if the field is missing.
-Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style, std::optional<double> radius = {},
-              const std::function<void(std::size_t)>& tell = {});
+/// Reads every frame once. `tell` hears how many are done. InputError as read_frame; also if the field is
+/// missing.
+Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
+              std::optional<double> radius = {}, const std::function<void(std::size_t)>& tell = {});
 
 /// Collects frames that are already in memory; what survey() is made of.
 class Surveyor {
@@ -51,7 +53,8 @@ class Surveyor {
   Survey finish();
 
  private:
-  /// Values in order of arrival, thinned evenly once there are many, so that a long run's quantiles fit in memory.
+  /// Values in order of arrival, thinned evenly once there are many, so that a long run's quantiles fit in
+  /// memory.
   struct Sample {
     std::vector<double> values;
     std::size_t stride = 1, seen = 0;

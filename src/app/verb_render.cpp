@@ -23,14 +23,16 @@ struct RenderArguments {
   int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int trails = 0;
   double radius = 0;
-  bool tilt = false, arrows = false, chains = false, copies = false, occlusion = false, no_spin = false, bare = false,
-       quiet = false;
+  bool tilt = false, arrows = false, chains = false, copies = false, occlusion = false, no_spin = false,
+       bare = false, quiet = false;
 };
 
 volatile std::sig_atomic_t stop_asked = 0;
 
-/// The numbers in `text`, divided by `separator`; empty places are NaN. InputError that says what `option` expects.
-std::vector<double> numbers(const std::string& option, const std::string& text, char separator, const char* expected) {
+/// The numbers in `text`, divided by `separator`; empty places are NaN. InputError that says what `option`
+/// expects.
+std::vector<double> numbers(const std::string& option, const std::string& text, char separator,
+                            const char* expected) {
   std::vector<double> values;
   std::size_t from = 0;
   for (;;) {
@@ -57,8 +59,8 @@ bool all_given(const std::vector<double>& values) {
 void read_size(const std::string& text, view::FrameStyle& style) {
   constexpr const char* expected = "WIDTHxHEIGHT in pixels, such as 1920x1080";
   const auto sides = numbers("--size", text, 'x', expected);
-  require(sides.size() == 2 && all_given(sides) && sides[0] == std::floor(sides[0]) && sides[1] == std::floor(sides[1]) &&
-              std::abs(sides[0]) < 1e6 && std::abs(sides[1]) < 1e6,
+  require(sides.size() == 2 && all_given(sides) && sides[0] == std::floor(sides[0]) &&
+              sides[1] == std::floor(sides[1]) && std::abs(sides[0]) < 1e6 && std::abs(sides[1]) < 1e6,
           "--size", text, expected);
   style.width = static_cast<int>(sides[0]), style.height = static_cast<int>(sides[1]);
 }
@@ -77,9 +79,11 @@ void read_camera(const std::string& text, view::Camera& camera) {
 }
 
 view::FrameRange read_frames(const std::string& text) {
-  constexpr const char* expected = "FIRST:END:STEP, whole numbers, END not included; any may be left out, such as 100: or ::10";
+  constexpr const char* expected =
+      "FIRST:END:STEP, whole numbers, END not included; any may be left out, such as 100: or ::10";
   const auto values = numbers("--frames", text, ':', expected);
-  for (const double x : values) require(std::isnan(x) || (x >= 0 && x == std::floor(x) && x < 1e9), "--frames", text, expected);
+  for (const double x : values)
+    require(std::isnan(x) || (x >= 0 && x == std::floor(x) && x < 1e9), "--frames", text, expected);
   require(values.size() <= 3, "--frames", text, expected);
   view::FrameRange range;
   if (!std::isnan(values[0])) range.first = static_cast<std::size_t>(values[0]);
@@ -131,14 +135,16 @@ void render(const RenderArguments& a) {
   Progress reading("read", a.quiet), drawing("render", a.quiet);
   job.progress = [&](const char* what, std::size_t done, std::size_t all) {
     const bool reads = std::string_view(what) == "reading";
-    (reads ? reading : drawing).show(static_cast<double>(done) / static_cast<double>(all), fmt::format("{} of {}", done, all));
+    (reads ? reading : drawing)
+        .show(static_cast<double>(done) / static_cast<double>(all), fmt::format("{} of {}", done, all));
     if (stop_asked) throw WorkError("stopped; the same command goes on from there");
   };
   const auto report = view::render_run(job);
   if (a.quiet) return;
   const auto kept = report.kept ? fmt::format(", {} were there", report.kept) : "";
   const auto where = job.output.empty() ? job.movie : job.output;
-  fmt::print(stderr, "render: {} frame{} drawn{}; in {}\n", report.drawn, report.drawn == 1 ? "" : "s", kept, where.string());
+  fmt::print(stderr, "render: {} frame{} drawn{}; in {}\n", report.drawn, report.drawn == 1 ? "" : "s", kept,
+             where.string());
 }
 
 }  // namespace
@@ -146,34 +152,41 @@ void render(const RenderArguments& a) {
 void add_render(CLI::App& app) {
   auto* verb = app.add_subcommand("render", "Draw the frames of a run as pictures or a movie");
   auto a = std::make_shared<RenderArguments>();
-  verb->add_option("run", a->run,
-                   "run directory; or VTK files of grains, chute's or another engine's: a directory, a time index "
-                   "(.pvd), one file, or a pattern in quotes")
+  verb->add_option(
+          "run", a->run,
+          "run directory; or VTK files of grains, chute's or another engine's: a directory, a time index "
+          "(.pvd), one file, or a pattern in quotes")
       ->required();
-  verb->add_option("-o,--output", a->output, "folder for NNNNNN.png; default RUN/pictures, none with --movie");
+  verb->add_option("-o,--output", a->output,
+                   "folder for NNNNNN.png; default RUN/pictures, none with --movie");
   verb->add_option("--movie", a->movie, "make a movie: .mp4 (H.264), .gif or .png (animated); needs ffmpeg");
   verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
   verb->add_option("--color", a->color,
-                   "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; default the speed");
+                   "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "
+                   "default the speed");
   verb->add_option("--range", a->range, "colour range LOW:HIGH; default from the whole run");
   verb->add_option("--colormap", a->map, "viridis, batlow, cividis, rdbu, or one of them with _r, reversed");
   verb->add_option("--size", a->size, "pixels, WIDTHxHEIGHT; default 1920x1080");
   verb->add_option("--frames", a->frames, "one frame, or FIRST:END:STEP with END not included");
-  verb->add_option("--camera", a->camera, "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all");
+  verb->add_option("--camera", a->camera,
+                   "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all");
   verb->add_option("--background", a->background, "white, dark or transparent")->capture_default_str();
   verb->add_flag("--tilt", a->tilt, "turn the picture so that gravity points down");
   verb->add_flag("--arrows", a->arrows, "velocity arrows");
-  verb->add_flag("--chains", a->chains, "contact forces as lines, wide where strong (needs the run's contacts)");
+  verb->add_flag("--chains", a->chains,
+                 "contact forces as lines, wide where strong (needs the run's contacts)");
   verb->add_flag("--copies", a->copies, "faded copies beyond the periodic ends");
   verb->add_flag("--occlusion", a->occlusion, "ambient occlusion (in space)");
   verb->add_option("--trails", a->trails, "draw where each grain was in the N frames before");
   verb->add_flag("--no-spin", a->no_spin, "no spin marks on discs");
   verb->add_flag("--bare", a->bare, "the grains alone: no colour bar, time, scale and gravity");
   verb->add_option("--radius", a->radius, "radius of all grains, for files without");
-  verb->add_option("-j,--jobs", a->jobs, "processes that draw at once; the pictures are the same")->capture_default_str();
+  verb->add_option("-j,--jobs", a->jobs, "processes that draw at once; the pictures are the same")
+      ->capture_default_str();
   verb->add_flag("--quiet", a->quiet, "no progress");
-  verb->footer("Pictures that are there and were drawn from the same data in the same style are kept.\n"
-               "Example: chute render out/chute-2d --tilt --movie chute.mp4");
+  verb->footer(
+      "Pictures that are there and were drawn from the same data in the same style are kept.\n"
+      "Example: chute render out/chute-2d --tilt --movie chute.mp4");
   verb->callback([a] { render(*a); });
 }
 

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "io/csv.hpp"
@@ -24,7 +25,7 @@ TEST_CASE("numbers read back the same") {
   for (const double x : {0.1, 1.0 / 3, 6.02214076e23, 5e-324, -0.0, 123456789.123456789}) {
     io::Csv csv({}, {"x"});
     csv.row({x});
-    const double back = std::stod(csv.text().substr(2));
+    const double back = std::strtod(csv.text().c_str() + 2, nullptr);  // stod refuses the smallest
     CHECK(back == x);
     CHECK(std::signbit(back) == std::signbit(x));
   }
@@ -38,8 +39,5 @@ TEST_CASE("first cells may be texts") {
 
 TEST_CASE("a comment of several lines stays a comment") {  // titles come from users
   const io::Csv csv({"one\ntwo\r\nthree"}, {"x"});
-  std::size_t lines = 0;
-  for (std::size_t at = 0; at < csv.text().size(); at = csv.text().find('\n', at) + 1, ++lines)
-    CHECK((csv.text()[at] == '#' || csv.text().substr(at) == "x\n"));
-  CHECK(lines >= 2);
+  CHECK(csv.text() == "# one two  three\nx\n");
 }

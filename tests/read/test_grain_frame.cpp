@@ -186,7 +186,8 @@ TEST_CASE("Values that are no numbers are refused with the point") {
   SECTION("position") {
     content.points[4] = std::numeric_limits<double>::quiet_NaN();
     vtk_files::write(content, folder / "f.vtp");
-    CHECK_THAT(complaint([&] { read::read_frame(folder / "f.vtp"); }), Contains("point 1: y is not a finite number"));
+    CHECK_THAT(complaint([&] { read::read_frame(folder / "f.vtp"); }),
+               Contains("point 1: y is not a finite number"));
   }
   SECTION("radius") {
     content.scalars["radius"][2] = GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity());
@@ -199,7 +200,8 @@ TEST_CASE("Values that are no numbers are refused with the point") {
   }
   SECTION("another kind of VTK data") {
     vtk_files::write({}, folder / "f.vti", Kind::image);
-    CHECK_THAT(complaint([&] { read::read_frame(folder / "f.vti"); }), Contains("ImageData, expected PolyData"));
+    CHECK_THAT(complaint([&] { read::read_frame(folder / "f.vti"); }),
+               Contains("ImageData, expected PolyData"));
   }
   SECTION("missing, or a folder") {
     CHECK_THAT(complaint([&] { read::read_frame(folder / "none.vtp"); }), Contains("none.vtp: cannot read"));

@@ -67,9 +67,17 @@ TEST_CASE("A wrong time index is one line") {
   expect("<Collection></Collection>", "no frames");
 }
 
+TEST_CASE("A run without frames says how to get them") {
+  Folder folder;
+  touch(folder / "scene.toml");
+  touch(folder / "impacts.vtp");  // grains hit here, but these are no grains
+  CHECK_THAT(complaint(folder.path), Contains("the run kept no frames"));
+}
+
 TEST_CASE("Files of other engines, in natural order") {
   Folder folder;
-  for (const char* name : {"dump10.vtk", "dump9.vtk", "dump100.vtk", "dump9_boundingBox.vtk", "notes.txt", "other1.vtu"})
+  for (const char* name :
+       {"dump10.vtk", "dump9.vtk", "dump100.vtk", "dump9_boundingBox.vtk", "notes.txt", "other1.vtu"})
     touch(folder / name);
   CHECK(names(read::find_frames(folder / "dump*.vtk")) ==
         std::vector<std::string>{"dump9.vtk", "dump10.vtk", "dump100.vtk"});

@@ -21,7 +21,9 @@ std::string complaint(Work&& work) {
 
 TEST_CASE("A table with comments, texts, numbers and gaps") {
   const auto table = read::parse_table(
-      "# x: time, s\r\n#\n# made by hand\npanel,series,x,x_err\r\n\na,e_n=0.7,1.5,\n,\"say \"\"yes\"\", twice\",-2e-3,0.25\n", "t.csv");
+      "# x: time, s\r\n#\n# made by hand\npanel,series,x,x_err\r\n\na,e_n=0.7,1.5,\n,\"say \"\"yes\"\", "
+      "twice\",-2e-3,0.25\n",
+      "t.csv");
   CHECK(table.comments == std::vector<std::string>{"x: time, s", "", "made by hand"});
   CHECK(table.header == std::vector<std::string>{"panel", "series", "x", "x_err"});
   REQUIRE(table.rows.size() == 2);

@@ -1,0 +1,371 @@
+#include "event/event_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/vector.hpp>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "event/first_contact.hpp"
+
+namespace chute::event {
+namespace {
+
+/// A collapse shows as a grain that collides this often within a short time, in units of the time in which a grain falls its
+/// own size: bounces of 1e-6 of it rise to 1e-13 of that size, and a little below, rounding of places keeps kicking the
+/// grain about, so that a collapse need not end. A contact time of more than some 1e-5 of it keeps clear of this.
+constexpr std::int64_t collapse_collisions = 1000;
+constexpr double collapse_time = 1e-3;
+
+/// Two grains whose distance at their collision is off by more than this part of R_i + R_j have missed it: an error of
+/// this engine, not of the scene.
+constexpr double missed = 1e-6;
+
+/// Grains may overlap by this part of R_i + R_j at the start: rounding of places that were meant to touch.
+constexpr double touching = 1e-9;
+
+/// Lower bound of the rebound in a lasting contact, in units of g t_c. The bounce then lasts at least t_c/2 on a level
+/// bead, safely within the train; 1/2 would end it.
+constexpr double least_rebound = 0.25;
+
+}  // namespace
+
+template <int D>
+EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
+    : setup_(setup), grains_(std::move(grains)), meetings_(grains_.moving, setup.contact_time) {
+  const std::size_t n = grains_.size(), moving = grains_.moving;
+  flights_.resize(n);
+  double widest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    Flight<D>& f = flights_[i];
+    f.place = grains_.place(i);
+    f.radius = grains_.radius[i];
+    widest = std::max(widest, f.radius);
+    if (i < moving) {
+      f.velocity = grains_.speed(i);
+      f.gravity = setup_.gravity;
+      for (int k = 0; k < turns<D>; ++k) f.spin[k] = grains_.spin[k][i], f.angle[k] = grains_.angle[k][i];
+      for (std::size_t k = 0; k < D; ++k) f.wraps[k] = grains_.wraps[k][i];
+    }
+    Flight<D>::wrap(f.place, f.wraps, setup_.domain);
+  }
+  reach_ = 2 * widest;
+  for (int k = 0; k < D; ++k) {
+    if (setup_.domain.length[k] < 2 * reach_)
+      throw WorkError(fmt::format("a periodic domain of length {} is too short for grains of radius {}: needed {}",
+                                  setup_.domain.length[k], widest, 2 * reach_));
+    force_[static_cast<std::size_t>(k)].assign(n, 0);
+  }
+  contact_.resize(moving);
+  crossing_.resize(moving);
+  bursts_.resize(moving);
+  show();
+  for (int k = 0; k < D; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    start_place_[axis].resize(moving);
+    for (std::size_t i = 0; i < moving; ++i) start_place_[axis][i] = this->grains().unwrapped(i, axis);
+  }
+  account_.start = energy().stored();
+  const double g = norm(setup_.gravity);
+  double fastest = 0;
+  for (std::size_t i = 0; i < moving; ++i) fastest = std::max(fastest, norm(flights_[i].velocity));
+  still_ = collapse_time * (g > 0 ? std::sqrt(reach_ / g) : reach_ / fastest);
+  lay_out();
+  for (std::size_t i = 0; i < moving; ++i)
+    cells_.neighbours(i, nullptr, [&](std::size_t j, const auto&) {
+      const double distance = norm(setup_.domain.way(flights_[i].place, flights_[j].place));
+      const double reach = flights_[i].radius + flights_[j].radius;
+      if (distance < reach * (1 - touching))
+        throw WorkError(fmt::format("grains {} and {} overlap by {:.3g} at the start; hard grains cannot", i, j,
+                                    reach - distance));
+    });
+}
+
+/// When two grains meet. Computed from the later of their last collisions, and always the same way round: the same bytes
+/// whoever asks, and when.
+template <int D>
+double EventEngine<D>::contact_with(std::size_t i, std::size_t j, const std::array<int, D>& shift) {
+  ++work_.predictions;
+  const bool swapped = j < i;
+  const Flight<D>&a = flights_[swapped ? j : i], &b = flights_[swapped ? i : j];
+  const double from = std::max(a.time, b.time);
+  Approach<D> approach;
+  const Vec<D> place_a = a.place_at(from), place_b = b.place_at(from);
+  for (int k = 0; k < D; ++k) {
+    const int periods = shift[static_cast<std::size_t>(k)];
+    approach.d[k] = place_a[k] - place_b[k];
+    if (periods != 0) approach.d[k] -= (swapped ? -periods : periods) * setup_.domain.length[k];
+  }
+  approach.v = a.velocity_at(from) - b.velocity_at(from);
+  approach.a = a.gravity - b.gravity;
+  approach.reach = a.radius + b.radius;
+  return from + first_contact(approach);
+}
+
+/// Looks for grain i's earliest collision: among all neighbours, or, after a crossing, among the new ones.
+template <int D>
+void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* crossed) {
+  Contact& first = contact_[i];
+  if (!crossed) first = {};
+  cells_.neighbours(i, crossed, [&](std::size_t j, const std::array<int, D>& shift) {
+    const double t = contact_with(i, j, shift);
+    if (t < first.time || (t == first.time && j < first.other))
+      if (t < std::numeric_limits<double>::infinity()) first = {t, j, flights_[j].collisions};
+  });
+  plan(i);
+}
+
+template <int D>
+void EventEngine<D>::plan(std::size_t i) {
+  crossing_[i] = cells_.crossing(i, flights_[i], now_);
+  const double next = std::min(contact_[i].time, crossing_[i].time);
+  if (std::isnan(next)) leave_physics(i, "its place is not a number");
+  schedule_.set(i, next);
+}
+
+template <int D>
+void EventEngine<D>::lay_out() {
+  ++work_.layouts;
+  cells_.build(flights_, setup_.domain, reach_, now_);
+  schedule_.clear();
+  for (std::size_t i = 0; i < grains_.moving; ++i) schedule_.add(0);
+  for (std::size_t i = 0; i < grains_.moving; ++i) look(i, nullptr);
+  next_look_ = work_.collisions + work_.crossings + 16 * static_cast<std::int64_t>(grains_.moving);
+}
+
+template <int D>
+void EventEngine<D>::advance_to(std::int64_t step) {
+  if (step <= step_) return;
+  const double until = static_cast<double>(step) * setup_.tick;
+  while (!schedule_.empty() && schedule_.next().time <= until) {
+    const std::size_t i = schedule_.next().grain;
+    now_ = std::max(now_, schedule_.next().time);
+    const Contact& next = contact_[i];
+    if (crossing_[i].time < next.time) {
+      ++work_.crossings;
+      const auto crossed = crossing_[i];
+      cells_.cross(i, crossed);
+      look(i, &crossed);
+    } else if (flights_[next.other].collisions != next.other_collisions) {
+      ++work_.outdated;
+      look(i, nullptr);
+    } else {
+      collide(i, next.other);
+    }
+    if (work_.collisions + work_.crossings >= next_look_) {
+      next_look_ += 16 * static_cast<std::int64_t>(grains_.moving);
+      if (cells_.outgrown(flights_, grains_.moving, now_)) lay_out();
+    }
+  }
+  step_ = step;
+  show();
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    if (grains_.position[D - 1][i] < setup_.floor) leave_physics(i, "it fell through the bed");
+}
+
+template <int D>
+Partner<D> EventEngine<D>::partner(std::size_t i) const {
+  const Flight<D>& f = flights_[i];
+  return {f.velocity, f.spin, f.radius, grains_.inverse_mass[i], grains_.inverse_inertia[i]};
+}
+
+template <int D>
+void EventEngine<D>::collide(std::size_t first, std::size_t second) {
+  ++work_.collisions;
+  const std::size_t i = std::min(first, second), j = std::max(first, second);
+  const bool both = j < grains_.moving;
+  for (const std::size_t k : {i, j})
+    if (k < grains_.moving) cells_.unwind(k, flights_[k].move_to(now_, setup_.domain));
+  const Vec<D> way = setup_.domain.way(flights_[j].place, flights_[i].place);
+  const double distance = norm(way), reach = flights_[i].radius + flights_[j].radius;
+  if (!(std::abs(distance - reach) <= missed * reach))
+    leave_physics(i, fmt::format("it met grain {} at a distance of {} instead of {}", j, distance, reach));
+  const Vec<D> n = (1 / distance) * way;
+
+  const Meeting* train = meetings_.running(i, j, now_);
+  if (collecting_ && !train) impacts_.push_back(impact(i, j, n));
+  Partner<D> a = partner(i), b = partner(j);
+  const double v_n = dot(a.velocity - b.velocity, n);
+  double rebound = -v_n * setup_.contact.restitution_at(-v_n);
+  if (train && now_ - train->last < meetings_.contact_time()) {
+    ++work_.elastic;
+    rebound = std::max(-v_n, least_rebound * norm(setup_.gravity) * meetings_.contact_time());
+  }
+  rebound = std::max(rebound, 0.0);  // a touch without approach, by rounding
+  const Exchange exchange = event::collide(setup_.contact, rebound, n, a, b);
+  meetings_.note(i, j, now_, exchange.normal_impulse, exchange.shear_impulse);
+  account_.normal_loss += exchange.normal_loss;
+  account_.shear_loss += exchange.shear_loss;
+
+  flights_[i].velocity = a.velocity, flights_[i].spin = a.spin, ++flights_[i].collisions;
+  if (both) flights_[j].velocity = b.velocity, flights_[j].spin = b.spin, ++flights_[j].collisions;
+  check_collapse(i);
+  if (both) check_collapse(j);
+  look(i, nullptr);
+  if (both) look(j, nullptr);
+}
+
+template <int D>
+void EventEngine<D>::check_collapse(std::size_t i) {
+  Burst& burst = bursts_[i];
+  if (now_ - burst.begin > still_) burst = {now_, 0};
+  if (++burst.collisions > collapse_collisions)
+    leave_physics(i, fmt::format("inelastic collapse: it collides ever more often ({} times within {:.2g}); give a "
+                                 "contact time, or a longer one, below which collisions are elastic",
+                                 burst.collisions, still_));
+}
+
+template <int D>
+Impact EventEngine<D>::impact(std::size_t i, std::size_t j, const Vec<D>& n) const {
+  // `n` leads from j to i. Of two moving grains the one with the lower id counts as the bead.
+  const bool turned = j < grains_.moving;
+  const std::size_t grain = turned ? j : i, bead = turned ? i : j;
+  const Vec<D> normal = turned ? -1.0 * n : n, v = flights_[grain].velocity - flights_[bead].velocity;
+  const Vec<D> place = flights_[bead].place + flights_[bead].radius * normal;
+  Impact impact{};
+  impact.time = now_;
+  impact.grain = static_cast<std::int64_t>(grain);
+  impact.bead = static_cast<std::int64_t>(bead);
+  for (int k = 0; k < D; ++k) impact.place[static_cast<std::size_t>(k)] = place[k];
+  impact.v_n = dot(v, normal);
+  if constexpr (D == 2) {
+    impact.gamma = std::atan2(normal[0], normal[1]);
+    impact.v_t = v[0] * normal[1] - v[1] * normal[0];  // along s = (n_y, −n_x): downhill at the top of a bead
+  } else {
+    impact.gamma = std::acos(std::clamp(normal[2], -1.0, 1.0));
+    impact.phi = std::atan2(normal[1], normal[0]);
+    impact.v_t = norm(v - impact.v_n * normal);
+  }
+  return impact;
+}
+
+template <int D>
+std::vector<Impact> EventEngine<D>::take_impacts() {
+  return std::exchange(impacts_, {});
+}
+
+template <int D>
+void EventEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
+  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", now_, step_, grain, what));
+}
+
+/// Brings what others see to the current tick. The flights stay as they are.
+template <int D>
+void EventEngine<D>::show() {
+  const double t = time();
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    const Flight<D>& f = flights_[i];
+    Vec<D> place = f.place_at(t);
+    const Vec<D> velocity = f.velocity_at(t);
+    const auto angle = f.angle_at(t);
+    auto wraps = f.wraps;
+    Flight<D>::wrap(place, wraps, setup_.domain);
+    for (int k = 0; k < D; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      grains_.position[axis][i] = place[k];
+      grains_.velocity[axis][i] = velocity[k];
+      if (i < grains_.moving) grains_.wraps[axis][i] = wraps[axis];
+      force_[axis][i] = 0;
+    }
+    for (int k = 0; k < turns<D>; ++k) {
+      grains_.angle[static_cast<std::size_t>(k)][i] = angle[k];
+      grains_.spin[static_cast<std::size_t>(k)][i] = f.spin[k];
+    }
+  }
+  for (const auto& c : contacts()) {
+    const auto i = static_cast<std::size_t>(c.i), j = static_cast<std::size_t>(c.j);
+    const Vec<D> way = setup_.domain.way(grains_.place(j), grains_.place(i));
+    for (int k = 0; k < D; ++k) {
+      const double push = c.normal_force * way[k] / norm(way);
+      force_[static_cast<std::size_t>(k)][i] += push;
+      force_[static_cast<std::size_t>(k)][j] -= push;
+    }
+  }
+}
+
+template <int D>
+GrainsView EventEngine<D>::grains() const {
+  GrainsView view;
+  view.dimensions = D;
+  view.time = time();
+  view.moving = grains_.moving;
+  for (std::size_t k = 0; k < D; ++k) {
+    view.position[k] = grains_.position[k];
+    view.velocity[k] = grains_.velocity[k];
+    view.force[k] = force_[k];
+    view.wraps[k] = grains_.wraps[k];
+    const auto axis = static_cast<int>(k);
+    view.period[k] = setup_.domain.periodic(axis) ? setup_.domain.length[axis] : 0;
+  }
+  for (std::size_t k = 0; k < turns<D>; ++k) view.angle[k] = grains_.angle[k], view.spin[k] = grains_.spin[k];
+  view.radius = grains_.radius;
+  view.mass = grains_.mass;
+  view.inertia = grains_.inertia;
+  return view;
+}
+
+template <int D>
+EnergyAccount EventEngine<D>::energy() const {
+  EnergyAccount e = account_;
+  const GrainsView view = grains();
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    for (std::size_t k = 0; k < D; ++k) {
+      const double v = grains_.velocity[k][i];
+      e.translation += 0.5 * grains_.mass[i] * v * v;
+      e.gravity_work += grains_.mass[i] * setup_.gravity[static_cast<int>(k)] * (view.unwrapped(i, k) - start_place_[k][i]);
+    }
+    for (std::size_t k = 0; k < turns<D>; ++k)
+      e.rotation += 0.5 * grains_.inertia[i] * grains_.spin[k][i] * grains_.spin[k][i];
+  }
+  return e;
+}
+
+template <int D>
+std::vector<ContactRecord> EventEngine<D>::contacts() const {
+  std::vector<ContactRecord> records;
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    for (const Meeting& m : meetings_.of(i)) {
+      if (!m.lasting() || !meetings_.runs(m, time())) continue;
+      const double duration = m.last - m.first;
+      records.push_back({static_cast<std::int64_t>(i), m.other, 0, m.normal_impulse / duration, m.shear_impulse / duration});
+    }
+  std::sort(records.begin(), records.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
+  return records;
+}
+
+/// Everything that changes during a run, for both directions of a checkpoint. Cells, queue and predictions follow
+/// from it.
+template <int D>
+template <class Archive, class Self>
+void EventEngine<D>::transfer(Archive& archive, Self& self) {
+  for (std::size_t i = 0; i < self.grains_.moving; ++i) {
+    auto& f = self.flights_[i];
+    archive(f.place.c, f.velocity.c, f.spin.c, f.angle.c, f.wraps, f.time);
+    archive(self.bursts_[i].begin, self.bursts_[i].collisions);
+  }
+  archive(self.start_place_, self.meetings_, self.account_.start, self.account_.normal_loss, self.account_.shear_loss,
+          self.now_, self.step_);
+}
+
+template <int D>
+void EventEngine<D>::save(std::ostream& out) const {
+  cereal::PortableBinaryOutputArchive archive(out);
+  transfer(archive, *this);
+}
+
+template <int D>
+void EventEngine<D>::restore(std::istream& in) {
+  cereal::PortableBinaryInputArchive archive(in);
+  transfer(archive, *this);
+  show();
+  lay_out();
+}
+
+template class EventEngine<2>;
+template class EventEngine<3>;
+
+}  // namespace chute::event

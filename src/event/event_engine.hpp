@@ -1,0 +1,117 @@
+#pragma once
+#include <limits>
+#include <string>
+
+#include "core/engine.hpp"
+#include "event/cells.hpp"
+#include "event/collision.hpp"
+#include "event/meetings.hpp"
+#include "event/schedule.hpp"
+
+namespace chute::event {
+
+/// What an event-driven run needs besides its grains.
+template <int D>
+struct EventSetup {
+  Domain<D> domain;
+  Vec<D> gravity{};
+  HardContact contact;
+  /// t_c of the cut-off against inelastic collapse, 0: none. See EventEngine. A real contact lasts t_n of (3.3); results
+  /// must not depend on t_c as long as g t_c is far below the velocities that matter.
+  double contact_time = 0;
+  double tick = 0;  ///< time between the instants that a caller can stop at; the motion does not depend on it
+  double floor = -std::numeric_limits<double>::infinity();  ///< a grain below (last coordinate) is lost
+};
+
+/// Event-driven molecular dynamics of hard spheres, thesis 2.1.3: grains fly freely from collision to collision, whose times
+/// are solved for (first_contact.hpp), and a collision changes velocities at once (collision.hpp).
+///
+/// Every grain remembers its flight since its last collision and its earliest event: a collision, or the change to the
+/// next cell of a grid, where it looks for new partners. A queue holds these; a grain whose partner was hit by somebody
+/// else finds out when its event comes up and looks again. The work per collision does not grow with the number of grains
+/// but for the O(log N) of the queue.
+///
+/// Inelastic collapse. Without a cut-off, a grain that comes to rest collides infinitely often in a finite time; the run then
+/// stops with a WorkError that names it. With t_c > 0, a collision less than t_c after the last one *of the same pair* is
+/// elastic, after Luding (thesis 2.1.3): a lasting contact is then a train of tiny bounces whose mean force is the true
+/// contact force, within Coulomb's limit. The time counts per pair, not per grain: a ball that rolls from one bead onto the
+/// next hits that one with its full loss. Friction goes on taking energy in such a train (a ball wedged between two beads
+/// would still collapse, even with e_n = 1), so the rebound is kept at |g| t_c/4 or more, half the fall in t_c; what
+/// that puts in counts as negative normal loss. Only the collision that begins a train (meetings.hpp) is an impact; trains
+/// are contacts().
+///
+/// A velocity-dependent e_n alone does not prevent collapse under gravity: bounces then shrink like k^(−1/δ), and their times
+/// still add up to a finite one for δ < 1.
+template <int D>
+class EventEngine final : public Engine {
+ public:
+  /// WorkError if grains overlap at the start, or the domain is shorter than two contacts.
+  EventEngine(Grains<D> grains, const EventSetup<D>& setup);
+
+  void advance_to(std::int64_t step) override;
+  std::int64_t step() const override { return step_; }
+  double time_step() const override { return setup_.tick; }
+  GrainsView grains() const override;
+  EnergyAccount energy() const override;
+  std::vector<ContactRecord> contacts() const override;
+  void collect_impacts(bool on) override { collecting_ = on; }
+  std::vector<Impact> take_impacts() override;
+  void save(std::ostream& out) const override;
+  void restore(std::istream& in) override;
+
+  const Grains<D>& state() const { return grains_; }
+
+  /// What was done so far, to see what a run costs.
+  struct Work {
+    std::int64_t collisions = 0;   ///< all of them
+    std::int64_t elastic = 0;      ///< those made elastic by t_c
+    std::int64_t crossings = 0;    ///< changes of cell
+    std::int64_t outdated = 0;     ///< predictions that came up after the partner was hit
+    std::int64_t predictions = 0;  ///< times solved for: the unit of cost
+    std::int64_t layouts = 0;      ///< times the grid was laid
+  };
+  const Work& work() const { return work_; }
+
+ private:
+  struct Contact {
+    double time = std::numeric_limits<double>::infinity();
+    std::size_t other = 0;
+    std::int64_t other_collisions = 0;
+  };
+
+  EventSetup<D> setup_;
+  Grains<D> grains_;                // as of the last tick: for those who look
+  std::vector<Flight<D>> flights_;  // the truth
+  std::vector<Contact> contact_;    // of each moving grain: the earliest
+  std::vector<typename Cells<D>::Crossing> crossing_;
+  Cells<D> cells_;
+  Schedule schedule_;
+  Meetings meetings_;
+  struct Burst {
+    double begin = 0;
+    std::int64_t collisions = 0;
+  };
+  std::vector<Burst> bursts_;  // of each moving grain: to notice a collapse
+  std::array<Array, D> start_place_, force_;
+  EnergyAccount account_;
+  double now_ = 0, reach_ = 0, still_ = 0;
+  std::int64_t step_ = 0, next_look_ = 0;
+  bool collecting_ = false;
+  std::vector<Impact> impacts_;
+  Work work_;
+
+  double contact_with(std::size_t i, std::size_t j, const std::array<int, D>& shift);
+  void look(std::size_t i, const typename Cells<D>::Crossing* crossed);
+  void plan(std::size_t i);
+  void lay_out();
+  void collide(std::size_t i, std::size_t j);
+  void check_collapse(std::size_t i);
+  void show();
+  Impact impact(std::size_t i, std::size_t j, const Vec<D>& n) const;
+  Partner<D> partner(std::size_t i) const;
+  [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self);
+};
+
+}  // namespace chute::event

@@ -1,0 +1,314 @@
+"""The chute program as a user meets it: test_app.py CHUTE SOURCES. Exit status, the one line that it says, and what it
+leaves behind."""
+import json
+import os
+import re
+import resource
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+chute, sources = sys.argv[1:3]
+DONE, FAILED, WRONG = 0, 1, 2
+
+TINY = """title = "tiny"
+units = "reduced"
+seed = 1
+[incline]
+angle = "18 deg"
+[bed]
+count = 6
+[grains]
+count = 8
+diameter = { mean = 1.0, std = 0.05 }
+[contact.normal]
+law = "spring-dashpot"
+stiffness = 1e4
+restitution = 0.6
+[contact.tangential]
+law = "coulomb-viscous"
+viscosity = 50
+friction = 0.5
+[run]
+duration = 2
+[output]
+frames = { every = 0.5 }
+"""
+
+
+def verbs():
+    """The verbs that this program has, from its own help."""
+    text = subprocess.run([chute, "--help"], capture_output=True, text=True).stdout
+    listed = text.split("Subcommands:")[1] if "Subcommands:" in text else text.split("SUBCOMMANDS:")[1]
+    return re.findall(r"^  (\w+)", listed, re.MULTILINE)
+
+
+class App(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.scene = self.write("tiny.toml", TINY)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, text):
+        with open(self.path(name), "wb" if isinstance(text, bytes) else "w") as file:
+            file.write(text)
+        return self.path(name)
+
+    def tree(self):
+        found = {}
+        for at, folders, names in os.walk(self.folder):
+            for name in names:
+                with open(os.path.join(at, name), "rb") as file:
+                    found[os.path.relpath(os.path.join(at, name), self.folder)] = file.read()
+            for name in folders:
+                found[os.path.relpath(os.path.join(at, name), self.folder) + "/"] = None
+        return found
+
+    def run_chute(self, *arguments, **options):
+        return subprocess.run([chute, *arguments], capture_output=True, text=True, cwd=self.folder, timeout=60, **options)
+
+    def refused(self, *arguments, status=WRONG, **options):
+        """The one line that the program says, with nothing else said and nothing left behind."""
+        before = self.tree()
+        done = self.run_chute(*arguments, **options)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertRegex(done.stderr, r"\Achute: [^\n]+\n\Z")
+        self.assertEqual(self.tree(), before, "something was left behind")
+        return done.stderr[len("chute: "):-1]
+
+    def changed(self, old, new):
+        self.assertEqual(TINY.count(old), 1, old)
+        return self.write("changed.toml", TINY.replace(old, new))
+
+
+class BadScenes(App):
+    CASES = [
+        ("restitution = 0.6", "resitution = 0.6", r":14: contact\.normal\.resitution: unknown key, did you mean restitution\?"),
+        ("angle = \"18 deg\"", "angle = 18", r":5: incline\.angle: 18 is not a text in quotes"),
+        ("count = 8", "count = \"eight\"", r":9: grains\.count: 'eight' is not a whole number"),
+        ("mean = 1.0", "mean = -1.0", r":10: grains\.diameter\.mean: -1 is not allowed, must be > 0"),
+        ("restitution = 0.6", "restitution = 1.5",
+         r":14: contact\.normal\.restitution: 1\.5 is not allowed, must be in \(0, 1\]"),
+        ("stiffness = 1e4\n", "", r":11: contact\.normal\.stiffness: missing, but required"),
+        ("[bed]", "[bed", r":6: not TOML: "),
+        ("count = 6", "count = 6\ncount = 7", r":8: not TOML: "),
+    ]
+
+    def test_run_and_check_refuse_them_with_file_and_line(self):
+        for old, new, says in self.CASES:
+            scene = self.changed(old, new)
+            for arguments in (["run", scene, "-o", self.path("out")], ["check", scene]):
+                with self.subTest(new=new, verb=arguments[0]):
+                    self.assertRegex(self.refused(*arguments), r"\A" + re.escape(scene) + says)
+
+    def test_missing_files_and_folders(self):
+        self.assertIn("none.toml: cannot read: No such file", self.refused("run", "none.toml"))
+        self.assertIn("none.toml: cannot read: No such file", self.refused("check", "none.toml"))
+        self.assertIn(": is a directory, not a file", self.refused("check", self.folder))
+
+    def test_bytes_that_are_no_text(self):
+        self.assertIn(":1: not TOML", self.refused("check", self.write("noise.toml", bytes(range(128, 256)))))
+
+    def test_settings(self):
+        for setting, says in (("grains.count", "--set grains.count: expected key=value"),
+                              ("grains.count=-1", "--set grains.count: grains.count: -1 is not allowed"),
+                              ("grains.cuont=1", "did you mean count?"),
+                              ("incline.angle=steep", "\"steep\" is not an angle")):
+            with self.subTest(setting=setting):
+                self.assertIn(says, self.refused("run", self.scene, "-o", self.path("out"), "--set", setting))
+
+    def test_grains_that_do_not_fit_leave_no_folder(self):
+        self.assertIn("spacing", self.refused("run", self.scene, "-o", self.path("out"), "--set", "grains.start.spacing=0.1"))
+
+
+class BadCommands(App):
+    def test_words_that_are_no_verb_or_option(self):
+        for arguments in ([], ["frobnicate"], ["run"], ["check"], ["run", self.scene, "--bogus"],
+                          ["run", self.scene, "-o", self.path("out"), "--threads", "0"],
+                          ["run", self.scene, "-o", self.path("out"), "--threads", "many"],
+                          ["run", self.scene, "-o", self.path("out"), "--resume", "--force"]):
+            with self.subTest(arguments=arguments):
+                self.refused(*arguments)
+
+    def test_info_of_what_is_no_run(self):
+        self.assertIn("none", self.refused("info", self.path("none")))
+        self.assertIn("not a run directory", self.refused("info", self.folder))
+        self.refused("info", self.scene)
+
+
+class Help(App):
+    def test_every_verb_has_help_with_an_example(self):
+        found = verbs()
+        self.assertLessEqual({"run", "check", "info"}, set(found))
+        for verb in found:
+            with self.subTest(verb=verb):
+                done = self.run_chute(verb, "--help")
+                self.assertEqual(done.returncode, DONE)
+                self.assertEqual(done.stderr, "")
+                self.assertRegex(done.stdout, r"Example: chute " + verb)
+
+    def test_version(self):
+        done = self.run_chute("--version")
+        self.assertEqual(done.returncode, DONE)
+        self.assertRegex(done.stdout, r"\Achute \d+\.\d+\.\d+ \([^)]+\)\n\Z")
+
+
+class Disk(App):
+    def test_a_folder_that_cannot_be_made(self):
+        file = self.write("file", "")
+        says = self.refused("run", self.scene, "-o", os.path.join(file, "out"), status=FAILED)
+        self.assertIn("cannot write: Not a directory", says)
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
+    def test_a_folder_that_may_not_be_written(self):
+        os.mkdir(self.path("locked"))
+        os.chmod(self.path("locked"), stat.S_IRUSR | stat.S_IXUSR)
+        self.addCleanup(os.chmod, self.path("locked"), stat.S_IRWXU)
+        for out in (self.path("locked"), self.path("locked", "out")):
+            self.assertIn("cannot write: Permission denied", self.refused("run", self.scene, "-o", out, status=FAILED))
+
+    def test_a_full_disk(self):
+        """No file may grow beyond 6 kB: the run starts and fails at some file, none of them half-written."""
+        def small_disk():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # as a write to a full disk: an error, not a signal
+            resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))
+
+        scene = self.changed("count = 8", "count = 100")
+        done = self.run_chute("run", scene, "-o", self.path("out"), "--quiet", preexec_fn=small_disk, restore_signals=False)
+        self.assertEqual(done.returncode, FAILED, done.stderr)
+        self.assertRegex(done.stderr, r"\Achute: [^\n]+: cannot write: File too large\n\Z")
+        left = self.tree()
+        for name, content in left.items():
+            self.assertFalse(os.path.basename(name).startswith("."), name + " was left behind")
+            if content is not None and name.endswith(".vtp"):
+                self.assertTrue(content.endswith(b"</VTKFile>\n"), name + " is half a file")
+
+
+class Runs(App):
+    def go(self, *arguments):
+        return self.run_chute("run", self.scene, "-o", self.path("out"), *arguments)
+
+    def results(self):
+        return {name: text for name, text in self.tree().items()
+                if name.startswith("out/") and name != "out/" and name not in ("out/run.json", "out/checkpoint")}
+
+    def test_a_run_and_its_replacement(self):
+        done = self.go()
+        self.assertEqual((done.returncode, done.stdout), (DONE, ""), done.stderr)
+        self.assertRegex(done.stderr, r"\Arun: \d+ steps in ")
+        whole = self.results()
+        self.assertEqual(set(whole), {"out/scene.toml", "out/series.csv", "out/frames.pvd", "out/frames/"} |
+                         {"out/frames/%06d.vtp" % k for k in range(5)})
+        with open(self.path("out", "run.json")) as file:
+            facts = json.load(file)
+        self.assertEqual((facts["end"], facts["seed"]), ("finished", 1))
+        self.assertIn("tiny.toml", facts["command"])
+        self.assertIn("a run is already there", self.refused("run", self.scene, "-o", self.path("out")))
+        self.assertEqual(self.go("--force", "--threads", "2", "--quiet").stderr, "")
+        self.assertEqual(self.results(), whole)
+        self.assertEqual(self.go("--resume").returncode, DONE)
+        self.assertEqual(self.results(), whole)
+        self.assertIn("belongs to another scene",
+                      self.refused("run", self.scene, "-o", self.path("out"), "--resume", "--set", "seed=2"))
+
+    def test_the_resolved_scene_runs_to_the_same_bytes(self):
+        self.go("--quiet", "--set", "seed=5")
+        whole = self.results()
+        self.run_chute("run", self.path("out", "scene.toml"), "-o", self.path("again"), "--quiet")
+        again = {name.replace("again/", "out/"): text for name, text in self.tree().items() if name.startswith("again/")}
+        for name, text in whole.items():
+            self.assertEqual(again[name], text, name)
+
+    def test_other_peoples_folders_are_not_touched(self):
+        os.mkdir(self.path("home"))
+        self.write("home/thesis.txt", "years of work")
+        for flags in ([], ["--force"], ["--resume"]):
+            says = self.refused("run", self.scene, "-o", self.path("home"), *flags)
+            self.assertIn("holds files that are not a run", says)
+
+    def test_a_stopped_run_goes_on(self):
+        """Stopped by a signal, or killed outright, and resumed: the bytes of a run that nobody disturbed."""
+        long = ["--quiet", "--set", "run.duration=400", "--set", "output.frames.every=50", "--set", "output.checkpoint=10"]
+        self.assertEqual(self.go(*long).returncode, DONE)
+        whole = self.results()
+        shutil.rmtree(self.path("out"))
+        for how in (signal.SIGTERM, signal.SIGKILL, signal.SIGINT, None):
+            flags = ["--resume"] if os.path.exists(self.path("out", "checkpoint")) else ["--force"]
+            run = subprocess.Popen([chute, "run", self.scene, "-o", self.path("out"), *long, *flags],
+                                   stderr=subprocess.PIPE, text=True)
+            if how is None:
+                self.assertEqual(run.communicate()[1], "")
+                break
+            time.sleep(0.3)
+            run.send_signal(how)
+            said = run.communicate(timeout=60)[1]
+            if run.returncode == DONE:
+                continue  # it was faster than the signal
+            if how != signal.SIGKILL:
+                self.assertEqual(run.returncode, FAILED)
+                self.assertRegex(said, r"\Achute: stopped; go on with: chute run [^\n]+ --resume\n\Z")
+        self.assertEqual({k: v for k, v in self.results().items() if not os.path.basename(k).startswith(".")}, whole)
+
+    def test_leaving_physics(self):
+        done = self.go("--quiet", "--set", "contact.normal.stiffness=10", "--set", "contact.tangential.viscosity=1")
+        self.assertEqual(done.returncode, FAILED)
+        self.assertRegex(done.stderr, r"\Achute: the run left physics at t = [\d.]+ \(step \d+\): grain \d+: [^\n]+\n\Z")
+        with open(self.path("out", "run.json")) as file:
+            self.assertEqual(json.load(file)["end"], "left physics")
+        self.assertTrue(os.path.exists(self.path("out", "checkpoint")))
+
+
+class Check(App):
+    def test_it_prints_the_complete_scene_and_what_follows(self):
+        done = self.run_chute("check", self.scene)
+        self.assertEqual((done.returncode, done.stderr), (DONE, ""))
+        for key in ("[incline]", "stiffness = 10000.0", "steps_per_contact = 50.0", "# t_n ", "# dt ", "# gamma_n ",
+                    "# gamma_max ", "# v_bf ", "# cost "):
+            self.assertIn(key, done.stdout)
+        # complete: what it prints is a scene that resolves to itself
+        resolved = self.write("resolved.toml", done.stdout)
+        again = self.run_chute("check", resolved)
+        self.assertEqual(again.stdout.replace("resolved.toml", "tiny.toml"), done.stdout)
+
+    def test_every_scene_of_the_collection_is_valid(self):
+        folder = os.path.join(sources, "scenes")
+        for name in sorted(os.listdir(folder)):
+            if name.endswith(".toml") and not name.startswith("fig-"):  # figure recipes are not scenes
+                done = self.run_chute("check", os.path.join(folder, name))
+                self.assertEqual((done.returncode, done.stderr), (DONE, ""), name)
+
+
+class Info(App):
+    def setUp(self):
+        super().setUp()
+        self.assertEqual(self.run_chute("run", self.scene, "-o", self.path("out"), "--quiet").returncode, DONE)
+
+    def test_a_run_is_told(self):
+        done = self.run_chute("info", self.path("out"))
+        self.assertEqual((done.returncode, done.stderr), (DONE, ""))
+        self.assertIn("finished", done.stdout)
+
+    def test_damaged_vtk(self):
+        """A frame that is cut or is no VTK at all, given to whatever reads one."""
+        frame = self.path("out", "frames", "000001.vtp")
+        with open(frame, "rb") as file:
+            whole = file.read()
+        readers = [["info"]] + ([["render", "-o", self.path("pictures")]] if "render" in verbs() else [])
+        for content in (whole[:len(whole) // 2], whole[:100], b"", b"not VTK\n"):
+            broken = self.write("broken.vtp", content)
+            for verb, *options in readers:
+                with self.subTest(verb=verb, size=len(content)):
+                    self.assertIn("broken.vtp", self.refused(verb, broken, *options))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=0)

@@ -1,0 +1,108 @@
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "small_chute.hpp"
+
+using namespace chute;
+using namespace chute::test;
+
+namespace {
+
+template <int D>
+std::string state(const soft::SoftEngine<D>& engine) {
+  std::ostringstream out;
+  engine.save(out);
+  return out.str();
+}
+
+/// The whole state after many contacts, among them gliding, rolling and resting ones.
+template <int D>
+std::string bytes_after(const Grains<D>& grains, const soft::SoftSetup<D>& s, std::int64_t steps) {
+  soft::SoftEngine<D> engine(grains, s);
+  engine.collect_impacts(true);
+  engine.advance_to(steps);
+  CHECK(engine.take_impacts().size() > 40);
+  return state(engine);
+}
+
+template <int D>
+void check_same_bytes(const Grains<D>& grains, const soft::SoftSetup<D>& usual, std::int64_t steps) {
+  const auto expected = bytes_after(grains, usual, steps);
+  auto other = usual;
+  other.search = search::Method::all_pairs;
+  CHECK(bytes_after(grains, other, steps) == expected);
+  for (const auto& [near, far] : {std::pair{0.0, 0.0}, {0.01, 0.02}, {0.1, 0.15}, {0.3, 1.5}, {2.0, 4.0}}) {
+    INFO("skins " << near << ", " << far);
+    other = usual;
+    other.skins = {near, far};
+    CHECK(bytes_after(grains, other, steps) == expected);
+  }
+  for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+    if (isa > best_isa()) continue;  // this processor cannot run it
+    INFO("isa " << static_cast<int>(isa));
+    other = usual;
+    other.isa = isa;
+    CHECK(bytes_after(grains, other, steps) == expected);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("search, skins and instruction set do not change a bit, 2D") {
+  const SmallChute chute;
+  const auto scheme = GENERATE(soft::Scheme::gear5, soft::Scheme::verlet);
+  check_same_bytes<2>(chute.grains(), chute.setup(50, scheme), 10'000);
+}
+
+TEST_CASE("search, skins and instruction set do not change a bit, 3D") {
+  check_same_bytes<3>(small_box(), small_box_setup(50), 5'000);
+}
+
+TEST_CASE("the twins of a run differ from another run") {  // so that the comparisons above can fail
+  const SmallChute chute;
+  auto grains = chute.grains();
+  const auto expected = bytes_after<2>(grains, chute.setup(50), 10'000);
+  grains.velocity[0][7] = std::nextafter(grains.velocity[0][7], 10);
+  CHECK(bytes_after<2>(grains, chute.setup(50), 10'000) != expected);
+}
+
+TEST_CASE("how the way to a step is cut does not change a bit") {
+  const SmallChute chute;
+  const auto scheme = GENERATE(soft::Scheme::gear5, soft::Scheme::verlet);
+  const auto s = chute.setup(50, scheme);
+  const auto expected = bytes_after<2>(chute.grains(), s, 9'000);
+  soft::SoftEngine<2> engine(chute.grains(), s);
+  engine.collect_impacts(true);
+  for (std::int64_t step = 0, stride = 1; step < 9'000; stride = stride % 37 + 1)
+    engine.advance_to(step = std::min<std::int64_t>(9'000, step + stride));
+  CHECK(state(engine) == expected);
+}
+
+TEST_CASE("a restored engine goes on to the same bytes") {
+  const SmallChute chute;
+  const auto scheme = GENERATE(soft::Scheme::gear5, soft::Scheme::verlet);
+  const auto s = chute.setup(50, scheme);
+  soft::SoftEngine<2> whole(chute.grains(), s);
+  whole.collect_impacts(true);
+  for (const std::int64_t at : {0, 777, 1'500, 5'000}) {
+    whole.advance_to(at);
+    std::stringstream saved(state(whole));
+    soft::SoftEngine<2> resumed(chute.grains(), s);
+    resumed.restore(saved);
+    resumed.collect_impacts(true);
+    CHECK(resumed.step() == at);
+    CHECK(state(resumed) == state(whole));
+    whole.take_impacts();
+    whole.advance_to(at + 700);
+    resumed.advance_to(at + 700);
+    CHECK(state(resumed) == state(whole));
+    const auto a = whole.take_impacts(), b = resumed.take_impacts();
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      CHECK(a[i].time == b[i].time);
+      CHECK(a[i].grain == b[i].grain);
+      CHECK(a[i].v_n == b[i].v_n);
+    }
+    CHECK(resumed.energy().residual() == whole.energy().residual());
+  }
+}

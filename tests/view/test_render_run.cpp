@@ -1,0 +1,187 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "grains.hpp"
+#include "image/png.hpp"
+#include "view/render_run.hpp"
+
+using namespace chute;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+  fs::path path;
+  Folder() {
+    auto pattern = (fs::temp_directory_path() / "chute-test-XXXXXX").string();
+    path = ::mkdtemp(pattern.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+/// A run of `count` frames in which the grains move on.
+void make_run(const fs::path& folder, int count) {
+  auto frame = grains::small_chute();
+  for (int i = 0; i < count; ++i) {
+    frame.time = 0.5 * i;
+    grains::write(frame, folder / "frames" / (std::to_string(i) + ".vtk"));
+    for (double& x : frame.x) x += 0.01;
+  }
+}
+
+view::RenderJob job_for(const Folder& folder, const char* output) {
+  view::RenderJob job;
+  job.source = folder.path;
+  job.output = folder.path / output;
+  job.style.width = 200, job.style.height = 150;
+  return job;
+}
+
+std::vector<std::string> names(const fs::path& folder) {
+  std::vector<std::string> result;
+  for (const auto& entry : fs::directory_iterator(folder)) result.push_back(entry.path().filename().string());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+bool same_files(const fs::path& a, const fs::path& b) {
+  if (names(a) != names(b)) return false;
+  for (const auto& name : names(a))
+    if (read_file(a / name) != read_file(b / name)) return false;
+  return true;
+}
+
+}  // namespace
+
+// First, as long as this process has not drawn: after that it draws by itself.
+TEST_CASE("Several processes draw the same bytes as one") {
+  Folder folder;
+  make_run(folder.path, 7);
+  auto job = job_for(folder, "three");
+  job.jobs = 3;
+  job.movie = folder.path / "three.mp4";
+  CHECK(view::render_run(job).drawn == 7);
+
+  SECTION("what goes wrong in a process is said here") {
+    auto bad = job_for(folder, "bad");
+    bad.jobs = 2;
+    bad.output = "/proc/nowhere";
+    CHECK_THROWS_AS(view::render_run(bad), WorkError);
+  }
+  auto alone = job_for(folder, "one");
+  alone.movie = folder.path / "one.mp4";
+  CHECK(view::render_run(alone).drawn == 7);
+  CHECK(same_files(folder.path / "one", folder.path / "three"));
+  CHECK(read_file(folder.path / "one.mp4") == read_file(folder.path / "three.mp4"));
+}
+
+TEST_CASE("Pictures drawn from the same are kept, others drawn again") {
+  Folder folder;
+  make_run(folder.path, 4);
+  auto job = job_for(folder, "out");
+  CHECK(view::render_run(job).drawn == 4);
+  auto again = view::render_run(job);
+  CHECK((again.drawn == 0 && again.kept == 4));
+
+  // a damaged picture, and a frame that has changed without changing what the whole run shares
+  const auto old = read_file(job.output / "000002.png");
+  write_atomically(job.output / "000002.png", old.substr(0, old.size() / 2));
+  auto text = read_file(folder.path / "frames/3.vtk");
+  text.replace(text.find("grains"), 6, "groins");
+  write_atomically(folder.path / "frames/3.vtk", text);
+  again = view::render_run(job);
+  CHECK((again.drawn == 2 && again.kept == 2));
+  CHECK(read_file(job.output / "000002.png") == old);
+
+  job.style.background = view::Background::dark;
+  CHECK(view::render_run(job).drawn == 4);
+  CHECK(names(job.output) ==
+        std::vector<std::string>{"000000.png", "000001.png", "000002.png", "000003.png"});
+}
+
+TEST_CASE("A range of frames keeps their numbers and the whole run's colours") {
+  Folder folder;
+  make_run(folder.path, 6);
+  auto job = job_for(folder, "out");
+  view::render_run(job);
+  auto some = job_for(folder, "some");
+  some.frames.first = 1, some.frames.step = 2, some.frames.end = 4;
+  CHECK(view::render_run(some).drawn == 2);
+  CHECK(names(some.output) == std::vector<std::string>{"000001.png", "000003.png"});
+  CHECK(read_file(some.output / "000003.png") == read_file(job.output / "000003.png"));
+  CHECK(image::read_png_text(some.output / "000003.png").at("Source") == "3.vtk");
+  some.frames.first = 6, some.frames.end.reset();
+  CHECK_THROWS_WITH(view::render_run(some), Contains("the run has 6"));
+}
+
+TEST_CASE("Movies appear whole or not at all") {
+  Folder folder;
+  make_run(folder.path, 3);
+  auto job = job_for(folder, "out");
+  job.output.clear();
+  job.style.width = 201;  // odd: H.264 wants even sides
+  const auto path = std::string(std::getenv("PATH"));
+  SECTION("each kind") {
+    for (const char* name : {"m.mp4", "m.gif", "m.png"}) {
+      job.movie = folder.path / "movies" / name;
+      view::render_run(job);
+      CHECK(fs::file_size(job.movie) > 1000);
+    }
+    CHECK(names(folder.path / "movies") == std::vector<std::string>{"m.gif", "m.mp4", "m.png"});
+    CHECK(read_file(folder.path / "movies/m.gif").starts_with("GIF89a"));
+    CHECK(read_file(folder.path / "movies/m.png").find("acTL") != std::string::npos);
+  }
+  SECTION("no ffmpeg") {
+    job.movie = folder.path / "movies/m.mp4";
+    ::setenv("PATH", folder.path.c_str(), 1);
+    CHECK_THROWS_WITH(view::render_run(job), Contains("m.mp4: ffmpeg is not installed"));
+    ::setenv("PATH", path.c_str(), 1);
+    CHECK(names(folder.path / "movies").empty());
+  }
+  SECTION("an ffmpeg that fails") {
+    const auto fake = folder.path / "bin/ffmpeg";
+    fs::create_directories(fake.parent_path());
+    std::ofstream(fake) << "#!/bin/sh\nfor last; do :; done\necho half > \"${last#file:}\"\necho 'no room "
+                           "left' >&2\nexit 1\n";
+    fs::permissions(fake, fs::perms::owner_all);
+    job.movie = folder.path / "movies/m.mp4";
+    ::setenv("PATH", (fake.parent_path().string() + ":" + path).c_str(), 1);
+    CHECK_THROWS_WITH(view::render_run(job), Contains("m.mp4: ffmpeg failed: no room left"));
+    ::setenv("PATH", path.c_str(), 1);
+    CHECK(names(folder.path / "movies").empty());
+  }
+  SECTION("a name that says nothing") {
+    job.movie = folder.path / "m.avi";
+    CHECK_THROWS_AS(view::render_run(job), InputError);
+  }
+}
+
+TEST_CASE("What cannot be drawn is said in one line") {
+  Folder folder;
+  make_run(folder.path, 2);
+  auto job = job_for(folder, "out");
+  SECTION("a frame cut short") {
+    const auto file = folder.path / "frames/1.vtk";
+    write_atomically(file, read_file(file).substr(0, 900));
+    CHECK_THROWS_WITH(view::render_run(job), Contains(file.string() + ": ") && !Contains("\n"));
+  }
+  SECTION("no contacts for chains") {
+    job.style.chains = true;
+    CHECK_THROWS_WITH(view::render_run(job), Contains("no contact networks"));
+  }
+  SECTION("nothing asked for") {
+    job.output.clear();
+    CHECK_THROWS_AS(view::render_run(job), InputError);
+  }
+  CHECK_FALSE(fs::exists(folder.path / "out/000001.png"));
+}
