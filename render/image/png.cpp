@@ -13,6 +13,9 @@
 namespace chute::image {
 namespace {
 
+/// A damaged header can ask for any size; no picture of ours comes near this (1 GiB of memory).
+constexpr std::uint64_t most_pixels = 1u << 28;
+
 /// What libpng's callbacks throw: it is C, but built with unwind tables, and throwing through it is what its
 /// own manual allows in place of longjmp.
 struct PngFault {
@@ -129,6 +132,9 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
 
 Image decode_png(std::string_view bytes, const std::string& name) {
   return with_reader(bytes, name, [](Reader& reader) {
+    const auto pixels = std::uint64_t{png_get_image_width(reader.png, reader.info)} *
+                        png_get_image_height(reader.png, reader.info);
+    if (pixels > most_pixels) throw PngFault{fmt::format("{} pixels are more than this program takes", pixels)};
     png_set_expand(reader.png);  // palettes, fewer than 8 bits, transparency as a colour
     png_set_scale_16(reader.png);
     png_set_gray_to_rgb(reader.png);

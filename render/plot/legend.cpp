@@ -12,6 +12,13 @@ void LegendBlock::add(const Series& series) {
   entries_.push_back({&series, set_text(source, look_->legend_size), source});
 }
 
+double LegendBlock::sample() const {
+  const bool only_points = std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) {
+    return e.series->kind == Kind::markers || e.series->kind == Kind::dots;
+  });
+  return (only_points ? 0.8 : 2.1) * look_->legend_size;
+}
+
 double LegendBlock::row_height() const {
   double height = 1.3 * look_->legend_size;
   for (const auto& e : entries_)

@@ -42,7 +42,7 @@ class LegendBlock {
   int rows(int columns) const { return (static_cast<int>(entries_.size()) + columns - 1) / columns; }
   std::vector<double> column_widths(int columns) const;
   double row_height() const;
-  double sample() const { return 2.1 * look_->legend_size; }
+  double sample() const;  ///< width
   double gap() const { return 0.45 * look_->legend_size; }
 };
 

@@ -10,21 +10,18 @@
 /// Outside `$…$` text is set upright, as it stands (`\$ \% \# \& \_ \\` for these characters). Inside:
 ///   - letters are italic, digits upright; `-` is a minus; spaces do not count, as in TeX
 ///   - `x_1`, `x^{2n}`, `x'`, groups in braces
-///   - Greek `\alpha … \omega` (italic), `\Gamma … \Omega` (upright), `\varepsilon \vartheta \varphi \varrho
-///   …`
-///   - `\times \cdot \pm \degree \infty \partial \nabla \le \ge \ll \gg \ne \approx \sim \propto \to \langle
+///   - Greek `\alpha … \omega` (italic), `\Gamma … \Omega` (upright), `\varphi …`
+///   - `\times \cdot \pm \degree \infty \partial \nabla \le \ge \ll \gg \ne \approx \propto \to \langle
 ///   \rangle …`
 ///   - `\sin \cos \tan \exp \ln \log \max \min …`, upright
-///   - `\bar \overline \hat \tilde \dot \ddot \vec`, `\sqrt{…}`, `\frac12`, `\frac{…}{…}` (`\dfrac`: at full
-///   size)
+///   - `\bar \overline \hat \tilde \dot \ddot \vec`, `\sqrt{…}`, `\frac12`, `\frac{…}{…}` (`\dfrac`: large)
 ///   - `\mathrm{m/s}` for units, `\mathbf`, `\mathit`, `\text{words with spaces}`
 ///   - spaces `\, \: \; \! \quad`
-/// An unknown command, an unbalanced brace, or a character that the font lacks is an InputError that names
-/// it.
+/// An unknown command, an unbalanced brace, or a character that the font lacks is an InputError naming it.
 namespace chute::plot {
 
-/// Smallest type that a figure may hold, points; sub- and superscripts shrink to 0.7 of their line, but not
-/// below this.
+/// Smallest type that a figure may hold, points: sub- and superscripts shrink to 0.7 of their line or to
+/// this.
 inline constexpr double smallest_type = 7;
 
 /// Text ready to be placed: origin at the left end of the baseline, y downwards, points.

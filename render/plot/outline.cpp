@@ -12,8 +12,7 @@ double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 
 void add_cubic(std::vector<Point>& points, Point p0, Point p1, Point p2, Point p3, double tolerance) {
-  // Wang's bound: a cubic cut into n equal steps strays by at most sqrt(3)/18 … here the plain form
-  // n^2 = 6/8 max|second difference| / tolerance
+  // Wang's bound: chords of n equal steps of a cubic stray by at most (6/8) max|second difference| / n^2
   const double bend = std::max(length(p0 - 2 * p1 + p2), length(p1 - 2 * p2 + p3));
   const int steps = std::clamp(static_cast<int>(std::ceil(std::sqrt(0.75 * bend / tolerance))), 1, 500);
   for (int i = 1; i < steps; ++i) {

@@ -7,6 +7,7 @@
 #include "plot/figure.hpp"
 #include "read/table.hpp"
 
+// clang-format off
 /// The plot half of a figure recipe, the table [plot]:
 ///
 ///     [plot]
@@ -14,28 +15,33 @@
 ///     aspect = 0.75                    # of each frame; or height_mm for the page
 ///     style = "journal"                # journal | slides | dark
 ///     columns = 2
-///     share = "x"                      # none | x | y | both: one range per column / row, labels outside
-///     only legend = "automatic"             # automatic | each | common | off kind = "both" # line | markers
-///     | both | band | steps | bars | dots x = { label = "$h\\ (d)$", min = 0, max = 16 }     # also scale =
-///     "log", factor = 100 (times the data)
+///     share = "x"                      # none | x | y | both: one range per column / row, labels outside only
+///     legend = "automatic"             # automatic | each | common | off
+///     kind = "both"                    # line | markers | both | band | steps | bars | dots
+///     x = { label = "$h$ ($d$)", min = 0, max = 16 }     # also scale = "log", factor = 100 (times the data)
 ///
-///     [[plot.panel]]                   # for the rows whose panel is `label`; panels not named are drawn all
-///     the same label = "a" title = "…" y = { label = "$\\eta$" }        # replaces what [plot] says, key by
-///     key legend = "top-right"             # automatic | top-left … bottom-right | top | off reference = [{
-///     kind = "diagonal" }, { kind = "horizontal", at = 0.5, label = "…" }] region = [{ above = "AB eps=0",
-///     below = "BC eps=0", shade = 1 }, { x_min = 0, x_max = 1 }] note = [{ text = "B", x = 2.2, y = 0.17 },
-///     { text = "…", x = 0.5, y = 0.9, fraction = true }] inset = [{ series = ["e_n=0.8*"], panel = "i", x =
-///     {…}, y = {…}, place = "top-right", width = 0.4, height = 0.4 }]
+///     [[plot.panel]]                   # for the rows whose panel is `label`; other panels are drawn all the same
+///     label = "a"
+///     title = "..."
+///     y = { label = "$\\eta$" }        # replaces what [plot] says, key by key
+///     legend = "top-right"             # automatic | top-left ... bottom-right | top (above the frame) | off
+///     reference = [{ kind = "diagonal" }, { kind = "horizontal", at = 0.5, label = "..." }]
+///     region = [{ above = "AB eps=0", below = "BC eps=0", shade = 1 }, { x_min = 0, x_max = 1 }]
+///     note = [{ text = "B", x = 2.2, y = 0.17 }, { text = "...", x = 0.5, y = 0.9, fraction = true }]
+///     inset = [{ series = ["e_n=0.8*"], panel = "i", x = {...}, y = {...}, place = "top-right", width = 0.4 }]
 ///
-///     [[plot.series]]                  # the first that matches decides; series not named are drawn all the
-///     same match = "e_n=0.8*"               # the name in the CSV; * stands for anything panel = "a" # only
-///     there kind = "line"                    # or "off": not drawn label = "$e_n=0.8$"              # ""
-///     keeps it out of the legend color = "blue"                   # blue vermillion green purple orange sky
-///     yellow black marker = "circle"                # circle square up diamond down ring block triangle gem
-///     cross dash = "dashed"                  # solid dashed dotted dash-dot long dash-dot-dot
+///     [[plot.series]]                  # the first that matches decides; other series are drawn all the same
+///     match = "e_n=0.8*"               # the name in the CSV; * stands for anything
+///     panel = "a"                      # only there
+///     kind = "line"                    # or "off": not drawn
+///     label = "$e_n=0.8$"              # "" keeps it out of the legend
+///     color = "blue"                   # blue vermillion green purple orange sky yellow black
+///     marker = "circle"                # circle square up diamond down ring block triangle gem cross
+///     dash = "dashed"                  # solid dashed dotted dash-dot long dash-dot-dot
 ///
-/// Where the recipe gives no kind, theory, fits and series of more than 80 points are lines, the others
-/// markers and lines.
+/// Where the recipe gives no kind, theory, fits and series of more than 80 points are lines, the others markers
+/// and lines. A panel that only an inset names is drawn in the inset only.
+// clang-format on
 namespace chute::plot {
 
 struct AxisRecipe {

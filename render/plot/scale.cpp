@@ -141,7 +141,8 @@ class Ruler {
     }
     return true;
   }
-  double wide_gap() const { return (horizontal_ ? 1.3 : 1.3) * size_; }
+  static constexpr std::size_t most_labels = 9;  // more are no help to the eye, however much room there is
+  double wide_gap() const { return 1.3 * size_; }
   double narrow_gap() const { return (horizontal_ ? 0.6 : 0.45) * size_; }
 
   Ticks with_step(double mantissa, int exponent) const {
@@ -184,7 +185,7 @@ class Ruler {
         const auto ticks = with_step(mantissa, exponent);
         if (ticks.major.empty()) continue;
         if (tight.major.empty() && fits(ticks.major, narrow_gap())) tight = ticks;
-        if (!fits(ticks.major, wide_gap())) continue;
+        if (ticks.major.size() > most_labels || !fits(ticks.major, wide_gap())) continue;
         if (ticks.major.size() >= 3 || !wanted) return ticks;
         if (few.major.empty()) few = ticks;
       }

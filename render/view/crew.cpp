@@ -12,13 +12,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <thread>
 #include <vector>
 
 #include "common/error.hpp"
-#include "view/offscreen.hpp"
 
 namespace chute::view {
 namespace {
@@ -156,6 +157,14 @@ class Worker {
   int orders_ = -1, replies_ = -1;
 };
 
+/// A child has only the thread that forked. If there are others (Mesa's, once this process has drawn), what
+/// they were doing or would have to do is lost in it.
+bool has_threads() {
+  std::error_code error;
+  const std::filesystem::directory_iterator tasks("/proc/self/task", error);
+  return error || std::distance(begin(tasks), end(tasks)) > 1;
+}
+
 void draw_here(std::size_t count, bool wanted, const std::function<Draw()>& make_draw, const Take& take) {
   const Draw draw = make_draw();
   image::Image picture;
@@ -169,8 +178,7 @@ void draw_here(std::size_t count, bool wanted, const std::function<Draw()>& make
 
 void draw_all(std::size_t count, int jobs, int width, int height, bool wanted,
               const std::function<Draw()>& make_draw, const Take& take) {
-  if (jobs <= 1 || count <= 1 || OffscreenContext::ever_made())
-    return draw_here(count, wanted, make_draw, take);
+  if (jobs <= 1 || count <= 1 || has_threads()) return draw_here(count, wanted, make_draw, take);
   const std::size_t picture_bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto crew_size = std::min<std::size_t>(static_cast<std::size_t>(jobs), count);
   // Mesa draws with a thread per processor in every process; shared out, they do not get in each other's way

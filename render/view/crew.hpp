@@ -15,8 +15,8 @@ using Take = std::function<void(std::size_t number, bool drawn, const image::Ima
 
 /// Draws pictures 0 … count - 1, `jobs` at once, each job a process of its own (VTK's drawing is not made for
 /// threads), and hands them over one after the other. `make_draw` is called once in each process. What a
-/// process throws is thrown here. Processes cannot be had once this one has drawn something itself; then it
-/// draws all of them.
+/// process throws is thrown here. A process that has several threads, as it has once it has drawn something
+/// itself, cannot be forked: then it draws all pictures by itself.
 void draw_all(std::size_t count, int jobs, int width, int height, bool wanted,
               const std::function<Draw()>& make_draw, const Take& take);
 

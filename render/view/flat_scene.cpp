@@ -69,7 +69,7 @@ fragOutput0 = vec4(rgb, colour.a * cover);
 
 struct FlatScene::Inside {
   OffscreenContext& context;
-  int height;
+  int width, height;
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkActor> actor;
   vtkNew<vtkOpenGLPolyDataMapper> mapper;
@@ -79,7 +79,13 @@ struct FlatScene::Inside {
   vtkNew<vtkFloatArray> arrays[std::size(attributes)];
   std::vector<float> values[std::size(attributes)], places;
 
-  Inside(OffscreenContext& c, int h) : context(c), height(h) {}
+  Inside(OffscreenContext& c, int w, int h) : context(c), width(w), height(h) {}
+
+  /// Shapes that are not in the picture are left out: one that is far away would spoil the precision of all,
+  /// for VTK scales coordinates by their bounds.
+  bool shows(double left, double right, double low, double high) const {
+    return right > 0 && left < width && high > 0 && low < height;
+  }
 
   /// How near the next shape is: each a little nearer than the one before, for the depth test. One step is
   /// about ten of the depth buffer's, and half a million shapes fit before the eye.
@@ -100,7 +106,7 @@ struct FlatScene::Inside {
 };
 
 FlatScene::FlatScene(OffscreenContext& context, int width, int height, Rgb ground, double ground_alpha)
-    : inside_(std::make_unique<Inside>(context, height)) {
+    : inside_(std::make_unique<Inside>(context, width, height)) {
   auto& in = *inside_;
   in.corners->SetNumberOfComponents(3);
   in.points->SetData(in.corners);
@@ -154,6 +160,7 @@ void FlatScene::clear() {
 void FlatScene::add(const Disc& disc) {
   const auto f = [](double x) { return static_cast<float>(x); };
   const double x = disc.centre.x, y = inside_->height - disc.centre.y, reach = disc.radius + 1;
+  if (!inside_->shows(x - reach, x + reach, y - reach, y + reach)) return;
   const float shape[4] = {f(disc.radius), f(disc.edge_width), f(disc.mark.x), f(-disc.mark.y)};
   const float paint[4] = {f(disc.fill.r), f(disc.fill.g), f(disc.fill.b), f(disc.alpha)};
   const float extra[4] = {f(disc.edge.r), f(disc.edge.g), f(disc.edge.b), f(disc.mark_radius)};
@@ -170,6 +177,9 @@ void FlatScene::add(const Bar& bar) {
   if (!(length > 0)) return;
   const plot::Point u = (1 / length) * (b - a), n{-u.y, u.x};
   const double reach = std::max(bar.width_from, bar.width_to) / 2 + 1.5;
+  if (!inside_->shows(std::min(a.x, b.x) - reach, std::max(a.x, b.x) + reach, std::min(a.y, b.y) - reach,
+                      std::max(a.y, b.y) + reach))
+    return;
   const float shape[4] = {f(length), f(bar.width_from / 2), f(bar.width_to / 2), -1};
   const float none[4] = {0, 0, 0, 0};
   const float z = inside_->height_of_next();

@@ -10,14 +10,11 @@
 #include <vtkOpenGLState.h>
 
 #include <algorithm>
-#include <atomic>
 
 #include "view/gl_context.hpp"
 
 namespace chute::view {
 namespace {
-
-std::atomic<bool> made = false;
 
 void answer_yes(vtkObject*, unsigned long, void*, void* answer) { *static_cast<bool*>(answer) = true; }
 
@@ -30,7 +27,6 @@ struct OffscreenContext::Inside {
 };
 
 OffscreenContext::OffscreenContext(int width, int height) : inside_(std::make_unique<Inside>()) {
-  made = true;
   inside_->context = make_osmesa_context(width, height);
   inside_->is_current->SetCallback(answer_yes);
   auto* window = inside_->window.Get();
@@ -72,7 +68,5 @@ void OffscreenContext::draw(image::Image& into) {
   for (int top = 0, bottom = height - 1; top < bottom; ++top, --bottom)
     std::swap_ranges(into.pixel(0, top), into.pixel(0, top) + row, into.pixel(0, bottom));
 }
-
-bool OffscreenContext::ever_made() { return made; }
 
 }  // namespace chute::view

@@ -24,9 +24,6 @@ class OffscreenContext {
   /// multiplied in. `into` is reused if it has the size.
   void draw(image::Image& into);
 
-  /// True once any context was made in this process: its drawing threads do not survive a fork.
-  static bool ever_made();
-
  private:
   struct Inside;
   std::unique_ptr<Inside> inside_;

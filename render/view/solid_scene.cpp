@@ -168,7 +168,7 @@ void SolidScene::occlude(double radius) {
   vtkNew<vtkSSAOPass> occlusion;
   occlusion->SetRadius(2.5 * radius);
   occlusion->SetBias(0.02 * radius);
-  occlusion->SetKernelSize(64);
+  occlusion->SetKernelSize(32);
   occlusion->BlurOn();
   occlusion->SetDelegatePass(camera);
   inside_->renderer->SetPass(occlusion);

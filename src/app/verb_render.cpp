@@ -137,7 +137,9 @@ void render(const RenderArguments& a) {
     const bool reads = std::string_view(what) == "reading";
     (reads ? reading : drawing)
         .show(static_cast<double>(done) / static_cast<double>(all), fmt::format("{} of {}", done, all));
-    if (stop_asked) throw WorkError("stopped; the same command goes on from there");
+    if (stop_asked)
+      throw WorkError(job.output.empty() ? "stopped; no movie was made"
+                                         : "stopped; the same command goes on from there");
   };
   const auto report = view::render_run(job);
   if (a.quiet) return;

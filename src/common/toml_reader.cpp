@@ -127,8 +127,10 @@ void TomlReader::fail(std::string_view key, const std::string& message) const {
   if (!node)
     for (const auto& [other, slip] : *table_) {  // it may be absent because of a slip of the pen
       if (std::find(known_.begin(), known_.end(), other.str()) != known_.end()) continue;
-      if (edit_distance(other.str(), key) <= std::max(key.size() / 3, std::min<std::size_t>(2, key.size() / 2)))
-        throw InputError(where(&slip) + path(other.str()) + fmt::format(": unknown key, did you mean {}?", key));
+      if (edit_distance(other.str(), key) <=
+          std::max(key.size() / 3, std::min<std::size_t>(2, key.size() / 2)))
+        throw InputError(where(&slip) + path(other.str()) +
+                         fmt::format(": unknown key, did you mean {}?", key));
     }
   throw InputError(where(node ? node : table_) + path(key) + ": " + message);
 }

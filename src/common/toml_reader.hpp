@@ -130,7 +130,7 @@ class TomlReader {
   /// Refuses keys that nobody asked for.
   void finish() const;
 
-  /// InputError at `key` (or at the table, if the key is absent).
+  /// InputError at `key`, which may be a dotted path (or at the table that should hold it, if it is absent).
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
   /// A rule that only the reader needs (checks between keys).

@@ -8,7 +8,7 @@ struct BallOnLine {
   double size_ratio = 3;         ///< Φ
   double theta = 0.1;
   double gap = 0;                ///< ε
-  HardContact contact{.restitution = 0.7, .friction = 0.13, .tangential = 0.34};
+  HardContact contact{laws::ConstantRestitution{0.7}, {.friction = 0.13, .beta = 0.34}};
   double contact_time = 1e-5;    ///< t_c
   double velocity = 0.3;         ///< at the start, downhill
   double velocity_up = 0.02;     ///< and away from the line

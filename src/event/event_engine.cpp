@@ -38,11 +38,12 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
     : setup_(setup), grains_(std::move(grains)), meetings_(grains_.moving, setup.contact_time) {
   const std::size_t n = grains_.size(), moving = grains_.moving;
   flights_.resize(n);
-  double widest = 0;
+  double widest_moving = 0, widest_fixed = 0;
   for (std::size_t i = 0; i < n; ++i) {
     Flight<D>& f = flights_[i];
     f.place = grains_.place(i);
     f.radius = grains_.radius[i];
+    double& widest = i < moving ? widest_moving : widest_fixed;
     widest = std::max(widest, f.radius);
     if (i < moving) {
       f.velocity = grains_.speed(i);
@@ -52,11 +53,11 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
     }
     Flight<D>::wrap(f.place, f.wraps, setup_.domain);
   }
-  reach_ = 2 * widest;
+  reach_ = widest_moving + (moving > 1 ? std::max(widest_moving, widest_fixed) : widest_fixed);
   for (int k = 0; k < D; ++k) {
     if (setup_.domain.length[k] < 2 * reach_)
       throw WorkError(fmt::format("a periodic domain of length {} is too short for grains of radius {}: needed {}",
-                                  setup_.domain.length[k], widest, 2 * reach_));
+                                  setup_.domain.length[k], widest_moving, 2 * reach_));
     force_[static_cast<std::size_t>(k)].assign(n, 0);
   }
   contact_.resize(moving);
@@ -84,37 +85,48 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
     });
 }
 
-/// When two grains meet. Computed from the later of their last collisions, and always the same way round: the same bytes
-/// whoever asks, and when.
+/// When two grains meet, if not surely later than `limit`. Computed from the later of their last collisions, and always
+/// the same way round: the same bytes whoever asks, and when.
 template <int D>
-double EventEngine<D>::contact_with(std::size_t i, std::size_t j, const std::array<int, D>& shift) {
-  ++work_.predictions;
+double EventEngine<D>::contact_with(std::size_t i, const Candidate& candidate, double limit) {
+  ++work_.candidates;
+  const std::size_t j = candidate.other;
   const bool swapped = j < i;
   const Flight<D>&a = flights_[swapped ? j : i], &b = flights_[swapped ? i : j];
   const double from = std::max(a.time, b.time);
   Approach<D> approach;
   const Vec<D> place_a = a.place_at(from), place_b = b.place_at(from);
   for (int k = 0; k < D; ++k) {
-    const int periods = shift[static_cast<std::size_t>(k)];
+    const int periods = candidate.shift[static_cast<std::size_t>(k)];
     approach.d[k] = place_a[k] - place_b[k];
     if (periods != 0) approach.d[k] -= (swapped ? -periods : periods) * setup_.domain.length[k];
   }
   approach.v = a.velocity_at(from) - b.velocity_at(from);
   approach.a = a.gravity - b.gravity;
   approach.reach = a.radius + b.radius;
+  // The bound is cheap and exact but for rounding, hence the margin; it saves most of the quartics.
+  if (from + approach.earliest() * (1 - 1e-9) > limit) return std::numeric_limits<double>::infinity();
+  ++work_.predictions;
   return from + first_contact(approach);
 }
 
-/// Looks for grain i's earliest collision: among all neighbours, or, after a crossing, among the new ones.
+/// Looks for grain i's earliest collision: among all neighbours, the likely one first, or, after a crossing, among the
+/// new ones.
 template <int D>
-void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* crossed) {
+void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely) {
   Contact& first = contact_[i];
   if (!crossed) first = {};
+  candidates_.clear();
   cells_.neighbours(i, crossed, [&](std::size_t j, const std::array<int, D>& shift) {
-    const double t = contact_with(i, j, shift);
-    if (t < first.time || (t == first.time && j < first.other))
-      if (t < std::numeric_limits<double>::infinity()) first = {t, j, flights_[j].collisions};
+    candidates_.push_back({j, shift});
+    if (j == likely) std::swap(candidates_.front(), candidates_.back());
   });
+  for (const Candidate& candidate : candidates_) {
+    const double t = contact_with(i, candidate, first.time);
+    const std::size_t j = candidate.other;
+    if (t < first.time || (t == first.time && t < std::numeric_limits<double>::infinity() && j < first.other))
+      first = {t, j, flights_[j].collisions};
+  }
   plan(i);
 }
 
@@ -132,7 +144,7 @@ void EventEngine<D>::lay_out() {
   cells_.build(flights_, setup_.domain, reach_, now_);
   schedule_.clear();
   for (std::size_t i = 0; i < grains_.moving; ++i) schedule_.add(0);
-  for (std::size_t i = 0; i < grains_.moving; ++i) look(i, nullptr);
+  for (std::size_t i = 0; i < grains_.moving; ++i) look(i, nullptr, i);
   next_look_ = work_.collisions + work_.crossings + 16 * static_cast<std::int64_t>(grains_.moving);
 }
 
@@ -148,10 +160,10 @@ void EventEngine<D>::advance_to(std::int64_t step) {
       ++work_.crossings;
       const auto crossed = crossing_[i];
       cells_.cross(i, crossed);
-      look(i, &crossed);
+      look(i, &crossed, i);
     } else if (flights_[next.other].collisions != next.other_collisions) {
       ++work_.outdated;
-      look(i, nullptr);
+      look(i, nullptr, i);
     } else {
       collide(i, next.other);
     }
@@ -167,9 +179,30 @@ void EventEngine<D>::advance_to(std::int64_t step) {
 }
 
 template <int D>
-Partner<D> EventEngine<D>::partner(std::size_t i) const {
+laws::Collider<D> EventEngine<D>::collider(std::size_t i) const {
   const Flight<D>& f = flights_[i];
   return {f.velocity, f.spin, f.radius, grains_.inverse_mass[i], grains_.inverse_inertia[i]};
+}
+
+/// The collision itself, with the cut-off against collapse; n from a to b.
+template <int D>
+laws::Collision<D> EventEngine<D>::exchange(const Vec<D>& n, const Meeting* train, laws::Collider<D>& a,
+                                            laws::Collider<D>& b) {
+  const double v_n = dot(b.velocity - a.velocity, n);
+  const double e_n = laws::restitution_at(setup_.contact.restitution, v_n);
+  if (!train) return setup_.contact.tangential(n, e_n, a, b);
+  const double since = now_ - train->last, t_c = meetings_.contact_time();
+  if (since < t_c) ++work_.elastic;
+  const double cut_off = laws::ContactTimeCutoff{t_c}(e_n, since, since);
+  const double least = since < t_c ? least_rebound * norm(setup_.gravity) * t_c : 0;
+  if (v_n < 0) return setup_.contact.tangential(n, std::max(cut_off, least / -v_n), a, b);
+  // A touch without approach: rounding, or grains that do not rebound at all. A normal push parts them.
+  laws::Collision<D> push;
+  const double m_eff = 1 / (a.inverse_mass + b.inverse_mass), rebound = std::max(v_n, least);
+  push.impulse = (m_eff * (rebound - v_n)) * n;
+  push.normal_loss = 0.5 * m_eff * (v_n * v_n - rebound * rebound);
+  laws::apply_impulse(n, push.impulse, a, b);
+  return push;
 }
 
 template <int D>
@@ -179,7 +212,7 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   const bool both = j < grains_.moving;
   for (const std::size_t k : {i, j})
     if (k < grains_.moving) cells_.unwind(k, flights_[k].move_to(now_, setup_.domain));
-  const Vec<D> way = setup_.domain.way(flights_[j].place, flights_[i].place);
+  const Vec<D> way = setup_.domain.way(flights_[i].place, flights_[j].place);
   const double distance = norm(way), reach = flights_[i].radius + flights_[j].radius;
   if (!(std::abs(distance - reach) <= missed * reach))
     leave_physics(i, fmt::format("it met grain {} at a distance of {} instead of {}", j, distance, reach));
@@ -187,25 +220,19 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
 
   const Meeting* train = meetings_.running(i, j, now_);
   if (collecting_ && !train) impacts_.push_back(impact(i, j, n));
-  Partner<D> a = partner(i), b = partner(j);
-  const double v_n = dot(a.velocity - b.velocity, n);
-  double rebound = -v_n * setup_.contact.restitution_at(-v_n);
-  if (train && now_ - train->last < meetings_.contact_time()) {
-    ++work_.elastic;
-    rebound = std::max(-v_n, least_rebound * norm(setup_.gravity) * meetings_.contact_time());
-  }
-  rebound = std::max(rebound, 0.0);  // a touch without approach, by rounding
-  const Exchange exchange = event::collide(setup_.contact, rebound, n, a, b);
-  meetings_.note(i, j, now_, exchange.normal_impulse, exchange.shear_impulse);
-  account_.normal_loss += exchange.normal_loss;
-  account_.shear_loss += exchange.shear_loss;
+  laws::Collider<D> a = collider(i), b = collider(j);
+  const auto done = exchange(n, train, a, b);
+  const double normal = dot(done.impulse, n);
+  meetings_.note(i, j, now_, normal, norm(done.impulse - normal * n));
+  account_.normal_loss += done.normal_loss;
+  account_.shear_loss += done.shear_loss;
 
   flights_[i].velocity = a.velocity, flights_[i].spin = a.spin, ++flights_[i].collisions;
   if (both) flights_[j].velocity = b.velocity, flights_[j].spin = b.spin, ++flights_[j].collisions;
   check_collapse(i);
   if (both) check_collapse(j);
-  look(i, nullptr);
-  if (both) look(j, nullptr);
+  look(i, nullptr, j);
+  if (both) look(j, nullptr, i);
 }
 
 template <int D>
@@ -220,10 +247,10 @@ void EventEngine<D>::check_collapse(std::size_t i) {
 
 template <int D>
 Impact EventEngine<D>::impact(std::size_t i, std::size_t j, const Vec<D>& n) const {
-  // `n` leads from j to i. Of two moving grains the one with the lower id counts as the bead.
+  // `n` leads from i to j. Of two moving grains the one with the lower id counts as the bead.
   const bool turned = j < grains_.moving;
   const std::size_t grain = turned ? j : i, bead = turned ? i : j;
-  const Vec<D> normal = turned ? -1.0 * n : n, v = flights_[grain].velocity - flights_[bead].velocity;
+  const Vec<D> normal = turned ? n : -1.0 * n, v = flights_[grain].velocity - flights_[bead].velocity;
   const Vec<D> place = flights_[bead].place + flights_[bead].radius * normal;
   Impact impact{};
   impact.time = now_;

@@ -4,11 +4,17 @@
 
 #include "core/engine.hpp"
 #include "event/cells.hpp"
-#include "event/collision.hpp"
 #include "event/meetings.hpp"
 #include "event/schedule.hpp"
+#include "laws/walton.hpp"
 
 namespace chute::event {
+
+/// What happens when two grains collide.
+struct HardContact {
+  laws::Restitution restitution;  ///< e_n
+  laws::Walton tangential;        ///< μ and β
+};
 
 /// What an event-driven run needs besides its grains.
 template <int D>
@@ -24,7 +30,7 @@ struct EventSetup {
 };
 
 /// Event-driven molecular dynamics of hard spheres, thesis 2.1.3: grains fly freely from collision to collision, whose times
-/// are solved for (first_contact.hpp), and a collision changes velocities at once (collision.hpp).
+/// are solved for (first_contact.hpp), and a collision changes velocities at once (laws/walton.hpp).
 ///
 /// Every grain remembers its flight since its last collision and its earliest event: a collision, or the change to the
 /// next cell of a grid, where it looks for new partners. A queue holds these; a grain whose partner was hit by somebody
@@ -67,7 +73,8 @@ class EventEngine final : public Engine {
     std::int64_t elastic = 0;      ///< those made elastic by t_c
     std::int64_t crossings = 0;    ///< changes of cell
     std::int64_t outdated = 0;     ///< predictions that came up after the partner was hit
-    std::int64_t predictions = 0;  ///< times solved for: the unit of cost
+    std::int64_t candidates = 0;   ///< pairs looked at: the unit of cost
+    std::int64_t predictions = 0;  ///< those whose time was solved for
     std::int64_t layouts = 0;      ///< times the grid was laid
   };
   const Work& work() const { return work_; }
@@ -100,15 +107,22 @@ class EventEngine final : public Engine {
   std::vector<Impact> impacts_;
   Work work_;
 
-  double contact_with(std::size_t i, std::size_t j, const std::array<int, D>& shift);
-  void look(std::size_t i, const typename Cells<D>::Crossing* crossed);
+  struct Candidate {
+    std::size_t other;
+    std::array<int, D> shift;
+  };
+  std::vector<Candidate> candidates_;  // scratch of look()
+
+  double contact_with(std::size_t i, const Candidate& candidate, double limit);
+  void look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely);
   void plan(std::size_t i);
   void lay_out();
   void collide(std::size_t i, std::size_t j);
   void check_collapse(std::size_t i);
   void show();
   Impact impact(std::size_t i, std::size_t j, const Vec<D>& n) const;
-  Partner<D> partner(std::size_t i) const;
+  laws::Collider<D> collider(std::size_t i) const;
+  laws::Collision<D> exchange(const Vec<D>& n, const Meeting* train, laws::Collider<D>& a, laws::Collider<D>& b);
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);

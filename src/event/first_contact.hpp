@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "core/vec.hpp"
 
 namespace chute::event {
@@ -17,8 +19,13 @@ struct Approach {
   }
   /// (2.17) as a function that is negative inside: |r|² − (R_i + R_j)².
   double gap(double t) const {
-    const double distance = norm(way(t));
-    return (distance - reach) * (distance + reach);
+    const Vec<D> r = way(t);
+    return dot(r, r) - reach * reach;
+  }
+  /// A time before which they cannot touch: as if they went straight at each other, ever faster.
+  double earliest() const {
+    const double far = norm(d) - reach, speed = norm(v), pull = norm(a);
+    return far > 0 ? 2 * far / (speed + std::sqrt(speed * speed + 2 * pull * far)) : 0;
   }
 };
 

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "scene/contact.hpp"
+#include "scene/start.hpp"
 
 namespace chute::scene {
 namespace {
@@ -174,13 +175,11 @@ static void describe(Archive& a, Scene& scene) {
     const double d = scene.bed.diameter, g = scene.incline.gravity;
     scene.output.series.every = scene.duration / 400;
     scene.output.checkpoint = scene.duration / 10;
-    if (a.has("output")) {
-      a.section("output", scene.output);
-      if (scene.output.profiles) {
-        if (scene.output.profiles->bin == 0) scene.output.profiles->bin = d;
-        auto& every = scene.output.profiles->every;
-        if (!every) every = g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4;
-      }
+    a.section("output", scene.output);
+    if (scene.output.profiles) {
+      if (scene.output.profiles->bin == 0) scene.output.profiles->bin = d;
+      auto& every = scene.output.profiles->every;
+      if (!every) every = g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4;
     }
   } else {
     a.section("output", scene.output);
@@ -208,6 +207,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   describe(reader, scene);
   reader.finish();
   check_contact_time(scene, reader);
+  if (const auto wrong = misfit(scene)) reader.fail(wrong->key, wrong->message);
   return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,48 +33,67 @@ void add_sphere(Grains<2>& grains, Vec<2> place, double radius, double density, 
   grains.add(place, radius, mass, 0.4 * mass * radius * radius, moves);
 }
 
+std::vector<double> radii_of(const Scene& scene) {
+  Random sizes(static_cast<std::uint64_t>(scene.seed), Purpose::sizes);
+  const double d = scene.mean_diameter(), std = scene.grains.diameter ? scene.grains.diameter->std : 0;
+  std::vector<double> radii;
+  while (radii.size() < static_cast<std::size_t>(scene.grains.count)) {
+    const double z = std > 0 ? sizes.normal() : 0;
+    if (std::abs(z) <= 3) radii.push_back((d + std * z) / 2);
+  }
+  return radii;
+}
+
+double lattice_spacing(const Scene& scene) {
+  return scene.grains.start.spacing.value_or(1.25 * scene.mean_diameter());
+}
+std::int64_t lattice_columns(const Scene& scene, double length) {
+  return static_cast<std::int64_t>(std::floor(length / lattice_spacing(scene) * (1 + 1e-12)));
+}
+
 void start_lattice(const Scene& scene, const std::vector<double>& radii, double length, Grains<2>& grains) {
-  const Start& start = scene.grains.start;
-  const double d = scene.mean_diameter();
-  const double spacing = start.spacing.value_or(1.25 * d);
-  const auto columns = static_cast<std::int64_t>(std::floor(length / spacing * (1 + 1e-12)));
-  double largest = 0;
-  for (double r : radii) largest = std::max(largest, r);
-  if (columns < 1 || 2 * largest > spacing)
-    throw InputError(fmt::format("grains.start.spacing: {} is too small for grains of diameter {:.4g} or too "
-                                 "large for a line of length {:.4g}",
-                                 spacing, 2 * largest, length));
-  const double lowest = start.height.value_or(scene.bed.diameter / 2 + 1.5 * d);
+  const auto columns = lattice_columns(scene, length);
+  const double lowest =
+      scene.grains.start.height.value_or(scene.bed.diameter / 2 + 1.5 * scene.mean_diameter());
   for (std::size_t i = 0; i < radii.size(); ++i) {
     const auto column = static_cast<std::int64_t>(i) % columns, row = static_cast<std::int64_t>(i) / columns;
     const Vec<2> place{{(static_cast<double>(column) + 0.5) * length / static_cast<double>(columns),
-                        lowest + static_cast<double>(row) * spacing}};
+                        lowest + static_cast<double>(row) * lattice_spacing(scene)}};
     add_sphere(grains, place, radii[i], scene.grains.density, true);
   }
 }
 
 }  // namespace
 
-Start2D make_start(const Scene& scene) {
-  Start2D made;
-  const auto [bed, length] = bed_line(scene);
-  const double d = scene.mean_diameter(), r_bed = scene.bed.diameter / 2;
-  made.domain.length[0] = length;
+std::optional<Misfit> misfit(const Scene& scene) {
+  const double length = bed_line(scene).second, d = scene.mean_diameter();
   const double needed = 2 * std::max(d, scene.bed.diameter) * 1.7;
   if (length < needed)
-    throw InputError(fmt::format("bed.count: a periodic line of length {:.4g} is too short for grains of "
-                                 "diameter {:.4g}: a grain would touch its own image; needed {:.4g}",
-                                 length, d, needed));
+    return Misfit{
+        scene.bed.length ? "bed.length" : "bed.count",
+        fmt::format("a periodic line of length {:.4g} is too short for grains of diameter {:.4g}: a grain "
+                    "would touch its own image; needed {:.4g}",
+                    length, d, needed)};
+  if (scene.grains.start.lattice != Start::Lattice::square) return {};
+  const auto radii = radii_of(scene);
+  const double largest = *std::max_element(radii.begin(), radii.end()), spacing = lattice_spacing(scene);
+  if (lattice_columns(scene, length) < 1 || 2 * largest > spacing)
+    return Misfit{
+        "grains.start.spacing",
+        fmt::format("{:.4g} is too small for grains of diameter {:.4g} or too large for a line of length "
+                    "{:.4g}",
+                    spacing, 2 * largest, length)};
+  return {};
+}
 
-  const auto seed = static_cast<std::uint64_t>(scene.seed);
-  Random sizes(seed, Purpose::sizes), velocities(seed, Purpose::start);
-  const double std = scene.grains.diameter ? scene.grains.diameter->std : 0;
-  std::vector<double> radii;
-  while (radii.size() < static_cast<std::size_t>(scene.grains.count)) {
-    const double z = std > 0 ? sizes.normal() : 0;
-    if (std::abs(z) <= 3) radii.push_back((d + std * z) / 2);
-  }
-
+Start2D make_start(const Scene& scene) {
+  if (const auto wrong = misfit(scene)) throw InputError(wrong->key + ": " + wrong->message);
+  Start2D made;
+  const auto [bed, length] = bed_line(scene);
+  const double r_bed = scene.bed.diameter / 2;
+  made.domain.length[0] = length;
+  Random velocities(static_cast<std::uint64_t>(scene.seed), Purpose::start);
+  const auto radii = radii_of(scene);
   made.grains.reserve(radii.size() + bed.size());
   const Start& start = scene.grains.start;
   if (start.lattice == Start::Lattice::square) {

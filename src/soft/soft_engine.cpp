@@ -72,12 +72,14 @@ void SoftEngine<D>::account(double duration) {
   account_.normal_loss += duration * normal;
   account_.shear_loss += duration * shear + stages_.memory().released();
   if (deepest == 0) return;
-  const auto i = static_cast<std::size_t>(contacts_.i[where]), j = static_cast<std::size_t>(contacts_.j[where]);
+  const auto i = static_cast<std::size_t>(contacts_.i[where]),
+             j = static_cast<std::size_t>(contacts_.j[where]);
   const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
   if (deepest > setup_.deepest_overlap * smaller)
-    leave_physics(i, fmt::format("it overlaps grain {} by {:.3g} of the smaller radius (limit {}): stiffness is "
-                                 "too low for these velocities",
-                                 j, deepest / smaller, setup_.deepest_overlap));
+    leave_physics(i,
+                  fmt::format("it overlaps grain {} by {:.3g} of the smaller radius (limit {}): stiffness is "
+                              "too low for these velocities",
+                              j, deepest / smaller, setup_.deepest_overlap));
 }
 
 template <int D>
@@ -89,18 +91,21 @@ void SoftEngine<D>::find_impacts() {
     while (old != touched_.end() && *old < now) ++old;
     if (old == touched_.end() || *old != now) impacts_.push_back(impact(c));
   }
-  touched_.clear();
-  for (std::size_t c = 0; c < contacts_.count; ++c) touched_.emplace_back(contacts_.i[c], contacts_.j[c]);
+  remember_touching();
 }
 
-/// The contact began within the last step and no force has acted yet: the predicted velocities are those of free
-/// flight, so this is the state just before the impact.
+/// The contact began within the last step and no force has acted yet: the predicted velocities are those of
+/// free flight, so this is the state just before the impact.
 template <int D>
 Impact SoftEngine<D>::impact(std::size_t contact) const {
-  const auto grain = static_cast<std::size_t>(contacts_.i[contact]);
-  const auto bead = static_cast<std::size_t>(contacts_.j[contact]);
+  auto grain = static_cast<std::size_t>(contacts_.i[contact]);
+  auto bead = static_cast<std::size_t>(contacts_.j[contact]);
   Vec<D> n, place;  // n from bead to grain
   for (int k = 0; k < D; ++k) n[k] = -contacts_.normal[k][contact];
+  if (bead < grains_.moving) {  // of two moving grains the first counts as the bead
+    std::swap(grain, bead);
+    n = -1.0 * n;
+  }
   place = grains_.place(bead) + grains_.radius[bead] * n;
   const auto v = grains_.speed(grain) - grains_.speed(bead);
   const double v_n = dot(v, n);
@@ -122,6 +127,18 @@ Impact SoftEngine<D>::impact(std::size_t contact) const {
 }
 
 template <int D>
+void SoftEngine<D>::collect_impacts(bool on) {
+  if (on && !collecting_) remember_touching();  // what touches already is no impact
+  collecting_ = on;
+}
+
+template <int D>
+void SoftEngine<D>::remember_touching() {
+  touched_.clear();
+  for (std::size_t c = 0; c < contacts_.count; ++c) touched_.emplace_back(contacts_.i[c], contacts_.j[c]);
+}
+
+template <int D>
 std::vector<Impact> SoftEngine<D>::take_impacts() {
   return std::exchange(impacts_, {});
 }
@@ -135,8 +152,8 @@ void SoftEngine<D>::check_floor() const {
 
 template <int D>
 void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_,
-                              grain, what));
+  throw WorkError(
+      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, grain, what));
 }
 
 template <int D>
@@ -194,8 +211,8 @@ template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   auto& g = self.grains_;
   archive(g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
-          self.account_.start, self.account_.normal_loss, self.account_.shear_loss, self.step_, self.touched_,
-          self.stages_.memory());
+          self.account_.start, self.account_.normal_loss, self.account_.shear_loss, self.step_,
+          self.collecting_, self.touched_, self.stages_.memory());
 }
 
 template <int D>
@@ -208,8 +225,8 @@ template <int D>
 void SoftEngine<D>::restore(std::istream& in) {
   cereal::PortableBinaryInputArchive archive(in);
   transfer(archive, *this);
-  // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember is from
-  // the forces of the last step, at the predicted places; it must not see the corrected ones.
+  // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember
+  // is from the forces of the last step, at the predicted places; it must not see the corrected ones.
   const auto remembered = stages_.memory();
   forces(0);
   stages_.memory() = remembered;

@@ -36,7 +36,7 @@ class SoftEngine final : public Engine {
   GrainsView grains() const override;
   EnergyAccount energy() const override;
   std::vector<ContactRecord> contacts() const override;
-  void collect_impacts(bool on) override { collecting_ = on; }
+  void collect_impacts(bool on) override;
   std::vector<Impact> take_impacts() override;
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
@@ -63,6 +63,7 @@ class SoftEngine final : public Engine {
   void forces(double duration);
   void account(double duration);
   void find_impacts();
+  void remember_touching();
   Impact impact(std::size_t contact) const;
   void check_floor() const;
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;

@@ -35,7 +35,7 @@ Grains<2> dropped() {
 
 TEST_CASE("without a cut-off, inelastic collapse stops the run, with the grain and the time of the closed form") {
   for (const double e : {0.3, 0.5, 0.8}) {
-    EventEngine<2> engine(dropped(), on_earth({.restitution = e}, 0));
+    EventEngine<2> engine(dropped(), on_earth({laws::ConstantRestitution{e}, {}}, 0));
     const double end = 1 + 2 * e / (1 - e);
     engine.advance_to(static_cast<std::int64_t>(100 * end) - 5);
     CHECK_THROWS_WITH(engine.advance_to(2000), Catch::Contains("grain 0: inelastic collapse"));
@@ -44,7 +44,7 @@ TEST_CASE("without a cut-off, inelastic collapse stops the run, with the grain a
 }
 
 TEST_CASE("a restitution that rises to 1 at rest does not prevent the collapse") {
-  EventEngine<2> engine(dropped(), on_earth({.restitution = 0.8, .velocity = 1}, 0));
+  EventEngine<2> engine(dropped(), on_earth({laws::PowerLawRestitution{1 - 0.8, 1}, {}}, 0));
   CHECK_THROWS_WITH(engine.advance_to(1'000'000), Catch::Contains("inelastic collapse"));
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("with t_c the ball comes to rest: one lasting contact that carries its
   for (const double e : {0.0, 0.5, 0.8})
     for (const double t_c : {1e-2, 1e-3}) {
       CAPTURE(e, t_c);
-      EventEngine<2> engine(dropped(), on_earth({.restitution = e}, t_c));
+      EventEngine<2> engine(dropped(), on_earth({laws::ConstantRestitution{e}, {}}, t_c));
       engine.collect_impacts(true);
       const double end = 1 + 2 * e / (1 - e);
       engine.advance_to(static_cast<std::int64_t>(100 * end) + 10);
@@ -94,7 +94,7 @@ TEST_CASE("a ball rolls over a bead and leaves it as the theory of rolling says;
       add_ball<2>(grains, {{0, L}}, {{v_0, 0}}, 1, 1, true);
       grains.spin[0][0] = rolls ? -v_0 : 0;
       add_ball<2>(grains, {{0, 0}}, {}, 1, 1, false);
-      EventEngine<2> engine(grains, on_earth({.restitution = 0.5, .friction = rolls ? 1e6 : 0}, t_c));
+      EventEngine<2> engine(grains, on_earth({laws::ConstantRestitution{0.5}, {.friction = rolls ? 1e6 : 0}}, t_c));
       engine.collect_impacts(true);
       engine.advance_to(std::llround(end / 0.01));
       const double error = norm(engine.state().place(0) - expected);
@@ -115,7 +115,7 @@ TEST_CASE("a ball wedged between two beads stays there, whatever friction takes"
       add_ball<2>(grains, {{1, 0}}, {}, 1, 1, false);
       const double t_c = 1e-3;
       CAPTURE(mu, e);
-      EventEngine<2> engine(grains, on_earth({.restitution = e, .friction = mu, .tangential = 0.34}, t_c));
+      EventEngine<2> engine(grains, on_earth({laws::ConstantRestitution{e}, {.friction = mu, .beta = 0.34}}, t_c));
       engine.advance_to(1000);
       CHECK(engine.contacts().size() == 2);
       CHECK(engine.state().position[0][0] == Approx(0).margin(1e-3));

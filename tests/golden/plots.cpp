@@ -99,7 +99,7 @@ std::vector<Golden> plot_goldens() {
                  {"one digit of a title", [](Figure& f) { f.panels[1].title = "$\\epsilon_{\\max}=0.3$"; }}}),
       golden_of("log-axes", {{"linear for log", [](Figure& f) { f.panels[0].x.scale = Scale::linear; }},
                              {"one digit of a label",
-                              [](Figure& f) { f.panels[0].series[0].label = "$t_n=10^{-6}\\,\\mathrm{s}$"; }},
+                              [](Figure& f) { f.panels[0].series[0].label = "$t_n=80^{-5}\\,\\mathrm{s}$"; }},
                              {"solid for dashed", [](Figure& f) { f.panels[0].series[1].dash = 0; }}}),
       golden_of("phase-diagram",
                 {{"a region left out", [](Figure& f) { f.panels[0].regions.pop_back(); }},

@@ -32,6 +32,17 @@ TEST_CASE("a checkpoint gives back what was saved") {
   CHECK(io::read_checkpoint(folder / "checkpoint", scene).empty());
 }
 
+TEST_CASE("empty arrays, which have no address, do not disturb the sum") {
+  const Folder folder;
+  io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream& out) {
+    out << state;
+    out.rdbuf()->sputn(nullptr, 0);
+    out << state;
+    out.rdbuf()->sputn(nullptr, 0);
+  });
+  CHECK(io::read_checkpoint(folder / "checkpoint", scene) == state + state);
+}
+
 TEST_CASE("a checkpoint cut anywhere is refused in one line") {
   const Folder folder;
   const auto whole = saved(folder);

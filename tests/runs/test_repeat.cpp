@@ -65,7 +65,9 @@ TEST_CASE("the same scene and seed give the same bytes, with any number of threa
 
 TEST_CASE("an interrupted and resumed run gives the bytes of an uninterrupted one") {
   const Folder folder;
-  const auto scene = flow({"run.duration=25", "output.frames={every=5}"});
+  // contacts that remember have the most to lose
+  const auto scene = flow({"run.duration=25", "output.frames={every=5}", "contact.tangential={law=\"cundall-strack\", "
+                           "stiffness=3e4, friction=0.5}"});
   const auto whole = go(scene, folder / "whole");
   const auto expected = results(folder / "whole");
 
@@ -97,7 +99,7 @@ TEST_CASE("an interrupted and resumed run gives the bytes of an uninterrupted on
     }
   }
   CHECK(results(folder / "killed") == expected);
-  WARN("stopped " << stops << " times, killed " << kills << " times");
+  CHECK(stops + kills > 0);  // the run takes long enough to be disturbed
 }
 
 TEST_CASE("a finished run that is resumed stays as it is") {

@@ -66,7 +66,7 @@ TEST_CASE("a word that is not known is answered with the nearest one") {
 }
 
 TEST_CASE("what is required is said to be missing, at the table that lacks it") {
-  CHECK(refused("stiffness = 5e6\n", "") == "scene.toml:14: contact.normal.stiffness: missing, but required");
+  CHECK(refused("viscosity = 1000\n", "") == "scene.toml:18: contact.tangential.viscosity: missing, but required");
   CHECK(refused("[run]\nduration = 400\n", "") == "scene.toml:1: run: missing, but required");
   CHECK(refused("\"reduced\"", "\"SI\"") == "scene.toml:10: grains: density is missing; SI scenes need it (kg/m³)");
   CHECK(refused(std::string()) == "scene.toml:1: incline: missing, but required");

@@ -160,6 +160,14 @@ TEST_CASE("Bed grains are gray whatever they are coloured by") {
   CHECK(near_color(picture(frame, style).pixel(64, 64), view::palette_of(style.background).bed));
 }
 
+TEST_CASE("A grain that has flown far away changes nothing in the picture") {
+  auto style = bare(128);
+  auto frame = grains::one_disc();
+  const auto alone = picture(frame, style);
+  grains::add(frame, 1e7, 3e6, 0, 1, 2);
+  CHECK(picture(frame, style) == alone);
+}
+
 TEST_CASE("Force chains are as wide as their forces") {
   auto frame = grains::one_disc();
   frame.arrays[1].values[0] = 1;

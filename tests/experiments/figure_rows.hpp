@@ -1,0 +1,60 @@
+#pragma once
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/computed_figures.hpp"
+
+/// A figure's rows by panel and series, as a reader of the CSV sees them.
+namespace chute::test {
+
+struct Points {
+  std::vector<double> x, y, y_err;
+
+  /// y at x, linear between the rows.
+  double at(double where) const {
+    for (std::size_t k = 1; k < x.size(); ++k)
+      if (where <= x[k]) return y[k - 1] + (where - x[k - 1]) / (x[k] - x[k - 1]) * (y[k] - y[k - 1]);
+    return y.back();
+  }
+  /// The last x where y changes from negative to positive; 0 if it never does.
+  double zero() const {
+    double where = 0;
+    for (std::size_t k = 1; k < x.size(); ++k)
+      if (y[k - 1] < 0 && y[k] >= 0) where = x[k - 1] - y[k - 1] / (y[k] - y[k - 1]) * (x[k] - x[k - 1]);
+    return where;
+  }
+};
+
+class Rows {
+ public:
+  explicit Rows(const std::string& id, bool quick = false) {
+    const auto table = experiments::computed_figures().at(id)({quick, 2});
+    for (const auto& row : table.rows) {
+      REQUIRE(std::isfinite(row.x));
+      REQUIRE(std::isfinite(row.y));
+      auto& p = points_[{row.panel, row.series}];
+      p.x.push_back(row.x);
+      p.y.push_back(row.y);
+      p.y_err.push_back(row.y_err.value_or(NAN));
+    }
+    REQUIRE(table.comments.size() >= 3);
+    REQUIRE(table.comments[0].starts_with("x: "));
+    REQUIRE(table.comments[1].starts_with("y: "));
+  }
+  const Points& operator()(const std::string& series, const std::string& panel = "") const {
+    return points_.at({panel, series});
+  }
+  std::vector<std::pair<std::string, std::string>> names() const {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const auto& [name, p] : points_) all.push_back(name);
+    return all;
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, Points> points_;
+};
+
+}  // namespace chute::test
