@@ -188,11 +188,11 @@ ScaleBar Furniture::flat_scale(double pixels_per_unit) const {
   return scale;
 }
 
-Point Furniture::draw_scale(DisplayList& list, const ScaleBar& scale) const {
+void Furniture::draw_scale(DisplayList& list, const ScaleBar& scale) const {
   const double em = layout_.em, width = std::max(1.5, 0.1 * em), end = 0.26 * em;
   const Point along = scale.to - scale.from;
   const double length = std::hypot(along.x, along.y);
-  if (!(length > 0)) return layout_.scale;
+  if (!(length > 0)) return;
   const Point u = (1 / length) * along, across{-u.y, u.x};  // downwards if the bar runs to the right
   for (const Point& p : {scale.from, scale.to})
     list.stroke(segment(p - end * across, p + end * across), {width, {}}, ink());
@@ -202,19 +202,19 @@ Point Furniture::draw_scale(DisplayList& list, const ScaleBar& scale) const {
   const Point at = scale.label_below ? Point{middle.x - (0.5 + 0.5 * u.y) * text.width, middle.y + 0.5 * em}
                                      : Point{scale.to.x + 0.5 * em, scale.to.y + 0.3 * small * em};
   plot::draw_text(list, text, at, ink());
-  return scale.label_below ? layout_.scale : Point{at.x + text.width + 1.6 * em, scale.to.y};
 }
 
 /// An arrow of a plain speed, to read the others by.
-void Furniture::draw_key(DisplayList& list, Point from, double arrow_pixels) const {
+void Furniture::draw_key(DisplayList& list, double arrow_pixels) const {
   const double em = layout_.em;
   const double speed = plain_length(std::min(3 * survey_.speed, 4.5 * em / arrow_pixels));
-  const Point to{from.x + speed * arrow_pixels, from.y};
-  draw_arrow(list, from, to, std::max(1.5, 0.085 * em), 0.55 * em, ink());
   const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,\\sqrt{{gd}}$", speed)
                     : survey_.units == "SI"    ? fmt::format("{:g} m/s", speed)
                                                : fmt::format("{:g}", speed);
-  plot::draw_text(list, plot::set_text(unit, small * em), {to.x + 0.5 * em, to.y + 0.3 * small * em}, ink());
+  const auto text = plot::set_text(unit, small * em);
+  const Point at{layout_.key.x - text.width, layout_.key.y}, to{at.x - 0.5 * em, at.y - 0.3 * small * em};
+  draw_arrow(list, {to.x - speed * arrow_pixels, to.y}, to, std::max(1.5, 0.085 * em), 0.55 * em, ink());
+  plot::draw_text(list, text, at, ink());
 }
 
 void Furniture::draw_gravity(DisplayList& list, const Directions& directions) const {
@@ -257,9 +257,8 @@ void Furniture::draw_gravity(DisplayList& list, const Directions& directions) co
 void Furniture::stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels) {
   auto list = blank(style_.width, style_.height);
   if (layout_.has_bar) draw_bar(list);
-  Point key = layout_.scale;
-  if (layout_.has_scale) key = draw_scale(list, scale);
-  if (layout_.has_key) draw_key(list, key, arrow_pixels);
+  if (layout_.has_scale) draw_scale(list, scale);
+  if (layout_.has_key) draw_key(list, arrow_pixels);
   if (layout_.has_gravity) draw_gravity(list, directions);
   standing_ = plot::rasterise_by_cairo(list, pixels);
 }

@@ -49,9 +49,8 @@ class Furniture {
   image::Image standing_;
 
   void draw_bar(plot::DisplayList& list) const;
-  /// Gives the place to the right of it.
-  plot::Point draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
-  void draw_key(plot::DisplayList& list, plot::Point from, double arrow_pixels) const;
+  void draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
+  void draw_key(plot::DisplayList& list, double arrow_pixels) const;
   void draw_gravity(plot::DisplayList& list, const Directions& directions) const;
   plot::Color ink() const { return {palette_.ink.r, palette_.ink.g, palette_.ink.b, 1}; }
   plot::Color quiet() const { return {palette_.quiet.r, palette_.quiet.g, palette_.quiet.b, 1}; }

@@ -26,13 +26,14 @@ Fit beside(Layout layout, double width, double height, double aspect, double tit
   const double panel = em * std::max(layout.has_bar ? std::max(title, bar_width + label_gap + labels) : 0,
                                      layout.has_gravity ? gravity_width : 0);
   const double space = panel > 0 ? gap * em : 0;
-  const double top = layout.has_time ? line * em : 0, bottom = layout.foot * em;
+  const double top = layout.has_time || layout.has_key ? line * em : 0, bottom = layout.foot * em;
   const double free_width = width - 2 * margin * em - space - panel,
                free_height = height - 2 * margin * em - top - bottom;
   const double w = std::max(1.0, std::min(free_width, free_height * aspect)), h = w / aspect;
   const double left = (width - w - space - panel) / 2, above = (height - h - top - bottom) / 2 + top;
   layout.scene = {left, above, left + w, above + h};
   layout.time = {left, above - (line - 1) * em};
+  layout.key = {left + w, layout.time.y};
   layout.scale = {left, above + h + 1.15 * em};
 
   // the panel is as high as the scene if that is enough for a bar and the arrows
@@ -52,13 +53,14 @@ Fit beside(Layout layout, double width, double height, double aspect, double tit
 
 Fit below(Layout layout, double width, double height, double aspect, double title, double labels) {
   const double em = layout.em;
-  const double top = layout.has_time ? line * em : 0;
+  const double top = layout.has_time || layout.has_key ? line * em : 0;
   const double row = em * (layout.has_gravity ? gravity_height + 0.6 : layout.has_bar ? 3.4 : layout.foot);
   const double free_width = width - 2 * margin * em, free_height = height - 2 * margin * em - top - row;
   const double w = std::max(1.0, std::min(free_width, free_height * aspect)), h = w / aspect;
   const double left = (width - w) / 2, above = (height - h - top - row) / 2 + top;
   layout.scene = {left, above, left + w, above + h};
   layout.time = {left, above - (line - 1) * em};
+  layout.key = {left + w, layout.time.y};
   layout.scale = {left, above + h + 1.25 * em};
   layout.gravity = {left + w - gravity_width * em, above + h + 0.6 * em, left + w,
                     above + h + (0.6 + gravity_height) * em};
@@ -95,10 +97,13 @@ Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, dou
   layout.has_scale = true;
   layout.has_key = style.arrows && survey.speed > 0;
   // in space the scale bar is part of the scene, only its label may reach below
-  layout.foot = survey.dimensions == 2 || layout.has_key ? foot : 0.8;
+  layout.foot = survey.dimensions == 2 ? foot : 0.8;
   const auto side = beside(layout, width, height, aspect, title_width, label_width);
   const auto under = below(layout, width, height, aspect, title_width, label_width);
-  return side.size >= under.size ? side.layout : under.layout;
+  layout = side.size >= under.size ? side.layout : under.layout;
+  // beside the time, if there is room
+  layout.has_key = layout.has_key && layout.scene.width() > 17 * layout.em;
+  return layout;
 }
 
 }  // namespace chute::view

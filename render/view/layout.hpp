@@ -15,6 +15,7 @@ struct Layout {
   plot::Rect bar;           ///< the colours themselves
   plot::Point title;        ///< left end of the colour bar's title
   plot::Point time;         ///< left end of the time's line
+  plot::Point key;          ///< right end of the line that explains the arrows, above the scene
   plot::Point scale;        ///< left end of the scale bar
   plot::Rect gravity;       ///< the arrows that show where gravity points
 };

@@ -72,7 +72,7 @@ TEST_CASE("psi_f of the tangential laws against an independent integration") {
 }
 
 TEST_CASE("psi_f of (3.22) with (3.6) against an independent integration") {
-  const double K = Acetate::hertz_stiffness, v = 1e-3, scale = std::pow(m_eff / K, 0.4) * std::pow(v, -0.2);
+  const double K = Acetate::hertz_stiffness, v = 1e-4, scale = std::pow(m_eff / K, 0.4) * std::pow(v, -0.2);
   const auto kono = laws::HertzKuwabaraKono::from_damping(laws::Hertz::from_stiffness(K), 190, laws::MassScaling::none);
   for (const double ratio : {2.0 / 3, 0.2})
     for (const double psi : {0.2, 0.8, 1.5, 4.0}) {

@@ -85,7 +85,7 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
         with("integrator = \"gear5\"", "integrator = \"verlet\"\ntime_step = 1e-5"),
         with("title = \"Dense", "title = \"a \\\"quoted\\\" \\\\ title\\n with lines; Dense"),
         with("frames = { every = 0.5 }", "frames = { every = 0.1, from = 3 }\ncontacts = true\nimpacts = { from = 1 }"),
-        with("diameter = { mean = 1.0, std = 0.05 }", "size_ratio = 1.3")}) {
+        with("diameter = { mean = 1.0, std = 0.05 }", "size_ratio = 1.2")}) {
     const auto scene = parse(text);
     const auto resolved = to_toml(scene);
     INFO(resolved);

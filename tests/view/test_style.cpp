@@ -96,6 +96,8 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
   if (survey.dimensions == 2)
     boxes.push_back(
         {layout.scale.x, layout.scale.y - 0.4 * em, layout.scale.x + 3 * em, layout.scale.y + 0.4 * em});
+  if (layout.has_key)
+    boxes.push_back({layout.key.x - 9 * em, layout.key.y - 0.8 * em, layout.key.x, layout.key.y + 0.25 * em});
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     CAPTURE(i, boxes[i].left, boxes[i].top, boxes[i].right, boxes[i].bottom);
     CHECK(page.contains(boxes[i]));
