@@ -28,5 +28,6 @@ struct Golden {
 std::vector<Golden> all_goldens();
 
 std::vector<Golden> plot_goldens();
+std::vector<Golden> frame_goldens();
 
 }  // namespace chute::golden
