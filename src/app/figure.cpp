@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
+#include "event/event_figures.hpp"
+#include "experiments/computed_figures.hpp"
 #include "figures/simulate.hpp"
 #include "io/csv.hpp"
 #include "plot/draw.hpp"
@@ -16,6 +19,7 @@
 #include "plot/recipe.hpp"
 #include "read/table.hpp"
 #include "run/version.hpp"
+#include "theory/theory_figures.hpp"
 
 namespace chute::app {
 namespace fs = std::filesystem;
@@ -54,9 +58,48 @@ Recipe read_recipe(const fs::path& file) {
   return recipe;
 }
 
+using Computation = std::function<figures::FigureTable(const figures::FigureContext&)>;
+
+/// The built-in computation of that name. InputError at the recipe's key if there is none.
+const Computation& find_computation(const std::string& name, const fs::path& recipe) {
+  std::vector<std::string> known;
+  for (const auto* list : {&experiments::computed_figures(), &theory::theory_figures(), &event::event_figures()}) {
+    if (const auto found = list->find(name); found != list->end()) return found->second;
+    for (const auto& [id, computation] : *list) known.push_back(id);
+  }
+  const auto hint = nearest(name, known);
+  throw InputError(fmt::format("{}: data.compute: \"{}\" is not known{}", recipe.string(), name,
+                               hint.empty() ? "" : ", did you mean \"" + hint + "\"?"));
+}
+
+/// Rows of a CSV file with the columns that figures have.
+figures::FigureTable read_rows(const fs::path& file) {
+  const auto table = read::read_table(file);
+  const auto x = table.column("x"), y = table.column("y");
+  const auto series = table.text("series");
+  const auto optional = [&](const char* name) {
+    return table.has(name) ? table.column(name) : std::vector<double>(x.size(), NAN);
+  };
+  const auto x_err = optional("x_err"), y_err = optional("y_err");
+  const auto panel = table.has("panel") ? table.text("panel") : std::vector<std::string>(x.size());
+  const auto known = [](double v) { return std::isfinite(v) ? std::optional(v) : std::nullopt; };
+  figures::FigureTable made;
+  made.comments = table.comments;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    made.rows.push_back({panel[i], series[i], x[i], y[i], known(x_err[i]), known(y_err[i])});
+  return made;
+}
+
 figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, const fs::path& directory,
                                 const figures::FigureContext& context,
                                 const std::function<bool(double)>& progress) {
+  if (recipe.data.table) return read_rows(file.parent_path() / *recipe.data.table);
+  if (recipe.data.compute) {
+    auto table = find_computation(*recipe.data.compute, file)(context);
+    table.comments.push_back(fmt::format("made by chute {} ({}){}", run::version, run::commit,
+                                         context.quick ? "; quick: a cheaper computation than the full figure's" : ""));
+    return table;
+  }
   return figures::simulate(recipe.data, file, directory / "runs", context, command_line(), progress);
 }
 

@@ -79,7 +79,8 @@ ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
   outcome.psi_before = v_s / -v_n;
   outcome.energy_before = energy(i, j);
 
-  // The time to pass through each other unhindered: the chord inside the contact is 2 (R_i + R_j) cos ϑ (2.16).
+  // The time to pass through each other unhindered: the chord inside the contact is 2 (R_i + R_j) cos ϑ
+  // (2.16).
   const double passing = 2 * reach * -v_n / dot(dv, dv);
   const laws::Pair pair(reduced_mass(i, j), i.radius * j.radius / reach);
   const double t_n = std::min(laws::normal_impact(law, -v_n, pair).contact_time, passing);
@@ -103,8 +104,8 @@ ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
     touched |= !contacts.empty();
     if (contacts.empty() && (touched || engine.time() > 2 * lead)) break;
     if (trace && !contacts.empty())
-      outcome.trace.push_back({engine.time() - lead, contacts[0].overlap, contacts[0].normal_force,
-                               contacts[0].shear_force});
+      outcome.trace.push_back(
+          {engine.time() - lead, contacts[0].overlap, contacts[0].normal_force, contacts[0].shear_force});
     if (++touching > static_cast<std::int64_t>(1000 * steps)) throw WorkError("the grains do not part");
   }
   outcome.contact_time = engine.time() - lead;

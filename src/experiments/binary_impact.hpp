@@ -20,11 +20,12 @@ template <int D>
 struct BinaryImpact {
   laws::Contact laws;
   Ball<D> i, j;
-  Vec<D> normal{};      ///< n when they meet, a unit vector from i to j (1.10); they must approach: v_n < 0
-  double steps = 2000;  ///< time steps in the contact time, or in the time to pass through each other, if shorter
-  bool trace = false;   ///< keep the forces of every step
+  Vec<D> normal{};  ///< n when they meet, a unit vector from i to j (1.10); they must approach: v_n < 0
+  double steps =
+      2000;  ///< time steps in the contact time, or in the time to pass through each other, if shorter
+  bool trace = false;  ///< keep the forces of every step
   soft::Scheme scheme = soft::Scheme::gear5;
-  Vec<D> origin{};      ///< where they meet
+  Vec<D> origin{};  ///< where they meet
 };
 
 /// One instant of the contact.
@@ -37,23 +38,23 @@ struct TracePoint {
 
 template <int D>
 struct ImpactOutcome {
-  Ball<D> i, j;                  ///< afterwards
-  Vec<D> normal{};               ///< n at the end of the contact
-  double contact_time = 0;       ///< until ξ is 0 again, to within a step
+  Ball<D> i, j;                          ///< afterwards
+  Vec<D> normal{};                       ///< n at the end of the contact
+  double contact_time = 0;               ///< until ξ is 0 again, to within a step
   double v_n_before = 0, v_n_after = 0;  ///< (1.13), the latter along the final n
-  double psi_before = 0;         ///< v_s/|v_n| before (1.32), ≥ 0
-  double psi_after = 0;          ///< v_s after over |v_n| before (1.33), along the direction of the first slip
+  double psi_before = 0;                 ///< v_s/|v_n| before (1.32), ≥ 0
+  double psi_after = 0;  ///< v_s after over |v_n| before (1.33), along the direction of the first slip
   double energy_before = 0, energy_after = 0;  ///< translation in the centre-of-mass system, and rotation
   double normal_loss = 0, shear_loss = 0;      ///< the engine's account of what was dissipated
   std::vector<TracePoint> trace;
 
-  double restitution() const { return -v_n_after / v_n_before; }                     ///< e_n (1.29)
+  double restitution() const { return -v_n_after / v_n_before; }                        ///< e_n (1.29)
   double total_restitution() const { return std::sqrt(energy_after / energy_before); }  ///< e (3.9)
 };
 
-/// Lets two grains collide in free space with the soft-sphere engine. The time step is chosen from the contact time
-/// of the normal law, the start such that the contact begins in the middle of a step. std::invalid_argument if they do
-/// not approach; WorkError if they have not parted after 1000 contact times.
+/// Lets two grains collide in free space with the soft-sphere engine. The time step is chosen from the
+/// contact time of the normal law, the start such that the contact begins in the middle of a step.
+/// std::invalid_argument if they do not approach; WorkError if they have not parted after 1000 contact times.
 template <int D>
 ImpactOutcome<D> collide(const BinaryImpact<D>& impact);
 

@@ -10,7 +10,8 @@ std::vector<figures::FigureRow> evaluate(const std::vector<ComputedCurve>& curve
   std::vector<figures::FigureRow> rows;
   std::vector<const ComputedCurve*> of_row;
   for (const auto& curve : curves)
-    for (const double x : curve.x) rows.push_back({curve.panel, curve.series, x, 0}), of_row.push_back(&curve);
+    for (const double x : curve.x)
+      rows.push_back({curve.panel, curve.series, x, 0}), of_row.push_back(&curve);
   for_each(rows.size(), jobs, [&](std::size_t k) { rows[k].y = of_row[k]->y(rows[k].x); });
   return rows;
 }

@@ -33,9 +33,9 @@ laws::Normal softened(double factor) {
 FigureTable compute_fig_1_06(const FigureContext& context) {
   const laws::Walton walton{0.21, 0.39};
   FigureTable table;
-  table.comments = {"x: psi_i = v_s/|v_n| before the collision",
-                    "y: psi_f = v_s/|v_n before| after it",
-                    "Walton's collision operator (2.22) to (2.31) on two equal spheres; e_n = 0.89, mu = 0.21, beta = 0.39"};
+  table.comments = {"x: psi_i = v_s/|v_n| before the collision", "y: psi_f = v_s/|v_n before| after it",
+                    "Walton's collision operator (2.22) to (2.31) on two equal spheres; e_n = 0.89, mu = "
+                    "0.21, beta = 0.39"};
   table.rows = evaluate({{"", "walton", evenly(0, 5, context.quick ? 51 : 501),
                           [&](double psi) { return walton_psi(walton, 0.89, psi); }}},
                         context.jobs);
@@ -64,8 +64,9 @@ FigureTable compute_fig_2_02(const FigureContext& context) {
       "y: -Delta v_x, what it loses of its component along itself, m/s",
       "impacts of two free acetate spheres under 87.4 deg: (3.1) with k_n = 7.32e6 N/m, gamma_n = 2.06 kg/s "
       "(t_n = 1e-5 s), or k_n/100, gamma_n/10 (t_n = 1e-4 s), and (3.10) with mu = 0.25",
-      fmt::format("series v_bf: the points of the two curves at v_bf (2.16), corrected: {:.4g} and {:.4g} m/s",
-                  failure(1), failure(10))};
+      fmt::format(
+          "series v_bf: the points of the two curves at v_bf (2.16), corrected: {:.4g} and {:.4g} m/s",
+          failure(1), failure(10))};
   table.rows = evaluate({{"", "t_n=1e-5", velocities, [&](double v) { return braking(1, v); }},
                          {"", "t_n=1e-4", velocities, [&](double v) { return braking(10, v); }},
                          {"", "v_bf", {failure(1)}, [&](double v) { return braking(1, v); }},
@@ -77,12 +78,15 @@ FigureTable compute_fig_2_02(const FigureContext& context) {
 
 FigureTable compute_fig_2_15(const FigureContext& context) {
   FigureTable table;
-  table.comments = {"x: t_0/t_n, time that a grain needs for the gap to the next over the contact time of two grains",
-                    "y: e_tot (2.15) of a column of 10 grains that hits a wall",
-                    "soft spheres in one dimension, (3.1) with e_n = 0.87 for every pair and for the wall"};
+  table.comments = {
+      "x: t_0/t_n, time that a grain needs for the gap to the next over the contact time of two grains",
+      "y: e_tot (2.15) of a column of 10 grains that hits a wall",
+      "soft spheres in one dimension, (3.1) with e_n = 0.87 for every pair and for the wall"};
   const double steps = context.quick ? 50 : 200;
   table.rows = evaluate({{"", "e_tot", logarithmically(1e-3, 100, context.quick ? 16 : 76),
-                          [&](double ratio) { return total_restitution({10, 0.87, ratio, steps}); }}},
+                          [&](double ratio) {
+                            return total_restitution({10, 0.87, ratio, steps});
+                          }}},
                         context.jobs);
   note_quick(table, context, "16 points instead of 76, 50 steps per contact instead of 200");
   return table;

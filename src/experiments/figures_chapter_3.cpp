@@ -36,12 +36,14 @@ FigureTable compute_fig_3_01(const FigureContext& context) {
   const std::vector<Series> all = {
       {"spring-dashpot", Acetate::spring_dashpot(), 0, 1},
       {"hertz-linear-damping", linearly_damped(0.35), -0.2, 100},
-      {"hertz-kuwabara-kono", laws::HertzKuwabaraKono::from_damping(hertz(), 190, laws::MassScaling::none), 0.2, 0.01}};
+      {"hertz-kuwabara-kono", laws::HertzKuwabaraKono::from_damping(hertz(), 190, laws::MassScaling::none),
+       0.2, 0.01}};
   const double steps = context.quick ? 500 : 4000;
   const auto velocities = logarithmically(0.01, 100, context.quick ? 17 : 65);
   std::vector<ComputedCurve> curves;
   for (const auto& [name, law, exponent, elastic] : all) {
-    curves.push_back({"", name, velocities, [law = law, steps](double v) { return restitution(law, v, steps); }});
+    curves.push_back(
+        {"", name, velocities, [law = law, steps](double v) { return restitution(law, v, steps); }});
     const double amplitude = (1 - restitution(law, elastic, steps)) / std::pow(elastic, exponent);
     curves.push_back({"", std::string(name) + " fit", velocities,
                       [=, e = exponent](double v) { return 1 - amplitude * std::pow(v, e); }});
@@ -49,8 +51,10 @@ FigureTable compute_fig_3_01(const FigureContext& context) {
   FigureTable table;
   table.comments = {
       "x: impact velocity, m/s", "y: coefficient of normal restitution e_n",
-      "head-on impacts of two free acetate spheres, integrated by the soft-sphere engine: (3.1) with k_n = 7.32e6 N/m, "
-      "gamma_n = 2.06 kg/s; (3.5) with k_n = 9.0e7 N/m^1.5, gamma_n = 0.35 kg/s; (3.6) with k_n = 9.0e7 N/m^1.5, "
+      "head-on impacts of two free acetate spheres, integrated by the soft-sphere engine: (3.1) with k_n = "
+      "7.32e6 N/m, "
+      "gamma_n = 2.06 kg/s; (3.5) with k_n = 9.0e7 N/m^1.5, gamma_n = 0.35 kg/s; (3.6) with k_n = 9.0e7 "
+      "N/m^1.5, "
       "gamma_n = 190 kg/(m^0.5 s)",
       "fit: 1 - e_n = a v^p with p = 0, -1/5, 1/5, and a from the most elastic point of the range"};
   table.rows = evaluate(curves, context.jobs);
@@ -61,9 +65,10 @@ FigureTable compute_fig_3_01(const FigureContext& context) {
 FigureTable compute_fig_3_02(const FigureContext& context) {
   const double steps = context.quick ? 200 : 2000, v = 1;
   FigureTable table;
-  table.comments = {"x: time since the first contact, s", "y: F_n over its largest value in that collision",
-                    "head-on impacts of two free acetate spheres at 1 m/s; repulsion is positive",
-                    "a: (3.1), k_n = 7.32e6 N/m; b: (3.5), k_n = 9.0e7 N/m^1.5; gamma_n such that e_n is as named"};
+  table.comments = {
+      "x: time since the first contact, s", "y: F_n over its largest value in that collision",
+      "head-on impacts of two free acetate spheres at 1 m/s; repulsion is positive",
+      "a: (3.1), k_n = 7.32e6 N/m; b: (3.5), k_n = 9.0e7 N/m^1.5; gamma_n such that e_n is as named"};
   const std::size_t every = static_cast<std::size_t>(steps / 200);
   for (const char* panel : {"a", "b"})
     for (const double e_n : {0.95, 0.6, 0.2}) {
@@ -93,9 +98,10 @@ FigureTable compute_fig_3_03(const FigureContext& context) {
   const laws::Normal law = laws::WaltonBraun::from_hardening(k_1, s);
   const auto velocities = logarithmically(0.01, 100, context.quick ? 17 : 65);
   FigureTable table;
-  table.comments = {"x: impact velocity, m/s", "y: coefficient of normal restitution e_n",
-                    "head-on impacts of two free acetate spheres, integrated by the soft-sphere engine: (3.7) with "
-                    "k_1 = 7.32e6 N/m, k_2 = k_1 + s F_max, s = 2e5 1/m"};
+  table.comments = {
+      "x: impact velocity, m/s", "y: coefficient of normal restitution e_n",
+      "head-on impacts of two free acetate spheres, integrated by the soft-sphere engine: (3.7) with "
+      "k_1 = 7.32e6 N/m, k_2 = k_1 + s F_max, s = 2e5 1/m"};
   table.rows = evaluate(
       {{"", "simulation", velocities, [&](double v) { return restitution(law, v, steps); }},
        {"", "eq 3.8", velocities,
@@ -123,10 +129,11 @@ PushedCylinder cylinder(char law) {
 }
 
 const std::string set_up_note =
-    "cylinder pushed along a plane by a massless block (3.2): m = g = r = 1, I = 1/2, mu_b = 0.5, mu_p = 0.25, (3.1) with "
-    "k_n = 2e7, e_n = 0.2 on the plane; from rest, F_p = 0.8 until t = 0.02, then 0.2 until t = 0.06; Runge-Kutta";
-const std::string laws_note =
-    "a: (3.12) with gamma_s = 1000; b: (3.13) with k_s = k_n; c: as b with (3.25)";
+    "cylinder pushed along a plane by a massless block (3.2): m = g = r = 1, I = 1/2, mu_b = 0.5, mu_p = "
+    "0.25, (3.1) with "
+    "k_n = 2e7, e_n = 0.2 on the plane; from rest, F_p = 0.8 until t = 0.02, then 0.2 until t = 0.06; "
+    "Runge-Kutta";
+const std::string laws_note = "a: (3.12) with gamma_s = 1000; b: (3.13) with k_s = k_n; c: as b with (3.25)";
 
 /// Mean and half of the range of one quantity over the last part of a push. The mean is weighted with a bell,
 /// 1 − cos, so that a ringing leaves nothing of the period that the interval cuts off.
@@ -163,14 +170,17 @@ FigureTable compute_fig_3_10(const FigureContext& context) {
 
 FigureTable compute_table_3_1(const FigureContext& context) {
   FigureTable table;
-  table.comments = {
-      "x: 1 F_s^p, 2 F_s^b (mg), 3 dv/dt, 4 domega/dt (g, g/r); panel: F_p",
-      "y: value in the steady state; y_err: half of its range where the law leaves it ringing",
-      "theory: (3.26) to (3.31); a, b, c: mean over the last quarter of each push", set_up_note, laws_note,
-      "b, c: integrated exactly, the tangential spring has no damping of its own, so the sticking contact goes on "
-      "ringing, at F_p = 0.2 over the full friction force; the thesis's table shows the mean",
-      "b at F_p = 0.2: the spring of the plane, stretched by all the slip before, still holds the sliding force; it "
-      "lets go at t = 0.072 and then swings to the other side"};
+  table.comments = {"x: 1 F_s^p, 2 F_s^b (mg), 3 dv/dt, 4 domega/dt (g, g/r); panel: F_p",
+                    "y: value in the steady state; y_err: half of its range where the law leaves it ringing",
+                    "theory: (3.26) to (3.31); a, b, c: mean over the last quarter of each push",
+                    set_up_note,
+                    laws_note,
+                    "b, c: integrated exactly, the tangential spring has no damping of its own, so the "
+                    "sticking contact goes on "
+                    "ringing, at F_p = 0.2 over the full friction force; the thesis's table shows the mean",
+                    "b at F_p = 0.2: the spring of the plane, stretched by all the slip before, still holds "
+                    "the sliding force; it "
+                    "lets go at t = 0.072 and then swings to the other side"};
   const double end = first.duration + second.duration;
   std::vector<std::vector<CylinderState>> runs;
   for (const char law : {'a', 'b', 'c'}) runs.push_back(push(cylinder(law), {first, second}, 1));
@@ -186,7 +196,8 @@ FigureTable compute_table_3_1(const FigureContext& context) {
           return q == 0 ? s.plane_force : q == 1 ? s.block_force : q == 2 ? s.acceleration : s.spin_up;
         });
         const auto swing = law == 0 ? std::optional<double>() : value.swing;
-        table.rows.push_back({panel, std::string(1, static_cast<char>('a' + law)), q + 1.0, value.mean, {}, swing});
+        table.rows.push_back(
+            {panel, std::string(1, static_cast<char>('a' + law)), q + 1.0, value.mean, {}, swing});
       }
   }
   static_cast<void>(context);  // it takes no time

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double inertia = 0.5;
 
-/// Height of the centre above its place on the unloaded plane, velocities, and how far the surfaces have slipped
-/// against each other since the step began.
+/// Height of the centre above its place on the unloaded plane, velocities, and how far the surfaces have
+/// slipped against each other since the step began.
 struct State {
   double height = 0, v = 0, v_up = 0, spin = 0, plane_slip = 0, block_slip = 0;
 };
@@ -82,8 +82,8 @@ std::vector<CylinderState> push(const PushedCylinder& set_up, const std::vector<
   };
   const auto slope = [&](const State& s, double pushing) {
     const auto f = forces(s, pushing);
-    return State{s.v_up, pushing + f.plane, f.normal - 1 + f.block, (f.block - f.plane) / inertia, s.v - s.spin,
-                 s.v_up + s.spin};
+    return State{s.v_up,       pushing + f.plane, f.normal - 1 + f.block, (f.block - f.plane) / inertia,
+                 s.v - s.spin, s.v_up + s.spin};
   };
   for (const auto& [pushing, duration] : pushes) {
     const auto steps = std::llround(duration / set_up.time_step);
@@ -112,13 +112,13 @@ SteadyCylinder steady_cylinder(double push, double mu_b, double mu_p) {
   const double low = mu_p * (1 + inertia) / (mu_b * (1 - mu_p) + inertia * (1 - mu_b * mu_p));  // (3.23)
   const double high = mu_p / (mu_b * (1 - mu_p));                                               // (3.24)
   if (push < low) {
-    const double a = (1 - mu_b) / (1 + inertia) * push;                             // (3.28)
-    return {(inertia + mu_b) / (1 + inertia) * push, mu_b * push, a, a};            // (3.26), (3.27)
+    const double a = (1 - mu_b) / (1 + inertia) * push;                   // (3.28)
+    return {(inertia + mu_b) / (1 + inertia) * push, mu_b * push, a, a};  // (3.26), (3.27)
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   if (push <= high) return {nan, nan, nan, nan};
-  const double friction = mu_p / (1 - mu_p);                                        // (3.29)
-  return {friction, friction, push - friction, 0};                                  // (3.30), (3.31)
+  const double friction = mu_p / (1 - mu_p);        // (3.29)
+  return {friction, friction, push - friction, 0};  // (3.30), (3.31)
 }
 
 }  // namespace chute::experiments

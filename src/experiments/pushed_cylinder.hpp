@@ -5,9 +5,10 @@
 
 namespace chute::experiments {
 
-/// A cylinder on a plane, pushed along it by a block, thesis 3.2: m = g = r = 1, I = 1/2. The block has no mass and
-/// stays upright, so that its normal force is the pushing force, exactly; the cylinder's weight and the friction at the
-/// block rest on the plane's normal law. The block's friction presses the cylinder down while its side moves up.
+/// A cylinder on a plane, pushed along it by a block, thesis 3.2: m = g = r = 1, I = 1/2. The block has no
+/// mass and stays upright, so that its normal force is the pushing force, exactly; the cylinder's weight and
+/// the friction at the block rest on the plane's normal law. The block's friction presses the cylinder down
+/// while its side moves up.
 struct PushedCylinder {
   laws::SpringDashpot normal = laws::SpringDashpot::from_restitution(2e7, 0.2);
   laws::Shear block, plane;  ///< tangential laws, with μ_b and μ_p
@@ -21,16 +22,18 @@ struct Push {
 
 struct CylinderState {
   double time;
-  double plane_force, block_force;    ///< F_s^p, F_s^b, positive as in (3.26), (3.27)
-  double acceleration, spin_up;       ///< dv/dt along the plane; dω/dt, positive as the cylinder rolls forward
+  double plane_force, block_force;  ///< F_s^p, F_s^b, positive as in (3.26), (3.27)
+  double acceleration, spin_up;     ///< dv/dt along the plane; dω/dt, positive as the cylinder rolls forward
   double velocity, spin;
 };
 
-/// The motion from rest, on the loaded plane, under one push after the other, every `every` steps. Integrated with the
-/// classical Runge-Kutta method; memories of the laws are carried through the stages of a step and settled at its end.
+/// The motion from rest, on the loaded plane, under one push after the other, every `every` steps. Integrated
+/// with the classical Runge-Kutta method; memories of the laws are carried through the stages of a step and
+/// settled at its end.
 std::vector<CylinderState> push(const PushedCylinder& set_up, const std::vector<Push>& pushes, int every);
 
-/// The steady state, (3.26) to (3.31), where only one of the contacts slips. NaN in between, F_p¹ < F_p < F_p².
+/// The steady state, (3.26) to (3.31), where only one of the contacts slips. NaN in between, F_p¹ < F_p <
+/// F_p².
 struct SteadyCylinder {
   double plane_force, block_force, acceleration, spin_up;
 };

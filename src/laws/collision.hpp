@@ -28,8 +28,8 @@ Vec<D> surface_slip(const Vec<D>& n, const Collider<D>& i, const Collider<D>& j)
   }
 }
 
-/// Both grains after the impulse J on j, −J on i, at the point of contact: (2.22) and (2.23), corrected: J acts on j,
-/// and I/R Δω = −n × J for both grains.
+/// Both grains after the impulse J on j, −J on i, at the point of contact: (2.22) and (2.23), corrected: J
+/// acts on j, and I/R Δω = −n × J for both grains.
 template <int D>
 void apply_impulse(const Vec<D>& n, const Vec<D>& impulse, Collider<D>& i, Collider<D>& j) {
   i.velocity = i.velocity - i.inverse_mass * impulse;
@@ -43,8 +43,8 @@ void apply_impulse(const Vec<D>& n, const Vec<D>& impulse, Collider<D>& i, Colli
   j.spin = j.spin - (j.radius * j.inverse_inertia) * turn;
 }
 
-/// Mass that resists a change of slip: 1/m_s = 1/m_i + 1/m_j + R_i²/I_i + R_j²/I_j. For solid spheres, I = 2/5 m R²,
-/// it is 2/7 m_eff: the factors 7/2 of (2.24) to (2.31).
+/// Mass that resists a change of slip: 1/m_s = 1/m_i + 1/m_j + R_i²/I_i + R_j²/I_j. For solid spheres, I =
+/// 2/5 m R², it is 2/7 m_eff: the factors 7/2 of (2.24) to (2.31).
 template <int D>
 double slip_mass(const Collider<D>& i, const Collider<D>& j) {
   return 1 / (i.inverse_mass + j.inverse_mass + i.radius * i.radius * i.inverse_inertia +

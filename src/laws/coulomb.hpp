@@ -5,12 +5,14 @@
 
 namespace chute::laws {
 
-/// Coulomb's law of sliding friction alone, thesis (3.10): F_s = −μ |F_n| v_s / |v_s|, and 0 where nothing slips.
+/// Coulomb's law of sliding friction alone, thesis (3.10): F_s = −μ |F_n| v_s / |v_s|, and 0 where nothing
+/// slips.
 ///
-/// It jumps at v_s = 0: a contact that has come to roll shakes with a slip of about 7/2 μ F_n dt / m_eff per step,
-/// which vanishes with the force at the end of an impact, but can never bear a load at rest.
+/// It jumps at v_s = 0: a contact that has come to roll shakes with a slip of about 7/2 μ F_n dt / m_eff per
+/// step, which vanishes with the force at the end of an impact. In a lasting contact it never ends, and the
+/// energy account takes it for dissipation: its residual then says how much too much. Use (3.12) or (3.13)
+/// there.
 struct Coulomb {
-  static constexpr bool acts = true;
   double friction = 0;  ///< μ
 
   template <int T>

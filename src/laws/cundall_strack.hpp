@@ -6,13 +6,14 @@
 
 namespace chute::laws {
 
-/// A tangential spring of stiffness k that is cut off at the Coulomb limit L = μ |F_n|: the shape that (3.13) and
-/// (3.22) share. The spring's length ζ = ∫ v_s dt (3.14) is the memory.
+/// A tangential spring of stiffness k that is cut off at the Coulomb limit L = μ |F_n|: the shape that (3.13)
+/// and (3.22) share. The spring's length ζ = ∫ v_s dt (3.14) is the memory.
 ///
-/// Without the cap the cut-off acts on the force only and ζ goes on growing while the contact slips. F_s is then a
-/// function of ζ and F_n: at constant F_n it is conservative even where it slips, and gives back on the way home all
-/// that it took, long after the slip has turned round; where F_n rises in between it gives back more than it took.
-/// With the cap (3.25), |ζ| ≤ L / k after each step, slipping dissipates and nothing is ever gained.
+/// Without the cap the cut-off acts on the force only and ζ goes on growing while the contact slips. F_s is
+/// then a function of ζ and F_n: at constant F_n it is conservative even where it slips, and gives back on
+/// the way home all that it took, long after the slip has turned round; where F_n rises in between it gives
+/// back more than it took. With the cap (3.25), |ζ| ≤ L / k after each step, slipping dissipates and nothing
+/// is ever gained.
 struct CutOffSpring {
   double friction = 0;  ///< μ
   bool cap = true;      ///< (3.25)
@@ -40,7 +41,6 @@ struct CutOffSpring {
 ///
 ///     F_s = −min(k_s |ζ|, μ |F_n|) ζ / |ζ|,    ζ = ∫ v_s dt (3.14)
 struct CundallStrack {
-  static constexpr bool acts = true;
   static constexpr int vectors = 1, scalars = 0;
   template <int T>
   using Memory = SlipMemory<T, vectors, scalars>;

@@ -17,8 +17,8 @@ inline double effective_modulus(double young_i, double poisson_i, double young_j
 ///
 ///     F_n = k_n ξ^{3/2}
 ///
-/// k_n (N m^{-3/2}) is given, or follows for each pair from the material, k_n = 4/3 √R_eff E_eff (1.19). It is the
-/// elastic part of (3.5) and (3.6) too.
+/// k_n (N m^{-3/2}) is given, or follows for each pair from the material, k_n = 4/3 √R_eff E_eff (1.19). It
+/// is the elastic part of (3.5) and (3.6) too.
 class Hertz {
  public:
   static Hertz from_stiffness(double stiffness, MassScaling scaling = MassScaling::none) {
@@ -45,8 +45,8 @@ class Hertz {
   double deepest(double speed, Pair p) const {
     return std::pow(1.25 * p.m_eff / stiffness_(p) * speed * speed, 0.4);
   }
-  /// t_n = 3.218 (m_eff/k_n)^{2/5} v^{-1/5}, (1.28) with the factor (5/4)^{2/5} that follows from (1.26) and (1.27)
-  /// in place of the printed (4/5)^{2/5}. It is 4√π Γ(2/5) / (5 Γ(9/10)) ξ_0 / v.
+  /// t_n = 3.218 (m_eff/k_n)^{2/5} v^{-1/5}, (1.28) with the factor (5/4)^{2/5} that follows from (1.26) and
+  /// (1.27) in place of the printed (4/5)^{2/5}. It is 4√π Γ(2/5) / (5 Γ(9/10)) ξ_0 / v.
   double contact_time(double speed, Pair p) const {
     const double factor = 0.8 * std::sqrt(std::numbers::pi) * std::tgamma(0.4) / std::tgamma(0.9);
     return factor * deepest(speed, p) / speed;

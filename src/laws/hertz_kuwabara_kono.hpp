@@ -8,8 +8,8 @@ namespace chute::laws {
 ///
 ///     F_n = k_n ξ^{3/2} + γ_n √ξ dξ/dt
 ///
-/// Impacts become less elastic with speed, 1 − e_n ∝ v^{1/5}. γ_n (kg m^{-1/2} s^{-1}) is given, or as the relaxation
-/// time A of the material, γ_n = 3/2 A k_n, which is the same for all pairs of one material.
+/// Impacts become less elastic with speed, 1 − e_n ∝ v^{1/5}. γ_n (kg m^{-1/2} s^{-1}) is given, or as the
+/// relaxation time A of the material, γ_n = 3/2 A k_n, which is the same for all pairs of one material.
 class HertzKuwabaraKono {
  public:
   static HertzKuwabaraKono from_damping(const Hertz& elastic, double damping, MassScaling scaling) {

@@ -8,8 +8,9 @@ namespace chute::laws {
 ///
 ///     F_n = k_n ξ^{3/2} + γ_n dξ/dt
 ///
-/// Impacts become more elastic with speed, 1 − e_n ∝ v^{-1/5}, against the experiments. Below a speed that grows with
-/// the damping the grains never part (e_n = 0): near ξ = 0 the damping wins and they creep, ξ ∝ t^{-2}.
+/// Impacts become more elastic with speed, 1 − e_n ∝ v^{-1/5}, against the experiments. Below a speed that
+/// grows with the damping the grains never part (e_n = 0): near ξ = 0 the damping wins and they creep, ξ ∝
+/// t^{-2}.
 class HertzLinearDamping {
  public:
   /// γ_n in kg/s, multiplied by m_eff with the mass conventions `damping` and `both`.

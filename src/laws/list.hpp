@@ -18,12 +18,13 @@
 /// Every law that a scene can name. The engine chooses once per step and runs a loop with the law inlined.
 /// To add a law: one header beside this, one word here, and its keys in scene/contact.cpp.
 ///
-/// A normal law is a function (ξ, dξ/dt, Pair) → NormalForce with an `energy(ξ, Pair)`; one with a memory names the
-/// numbers that it keeps per contact, `memory`, takes them as last argument and returns a RememberedForce. Both answer
-/// `needs_radius`, `stiffness(Pair)`, `damping(Pair)` and `impact(speed, Pair)`.
+/// A normal law is a function (ξ, dξ/dt, Pair) → NormalForce with an `energy(ξ, Pair)`; one with a memory
+/// names the numbers that it keeps per contact, `memory`, takes them as last argument and returns a
+/// RememberedForce. Both answer `needs_radius`, `stiffness(Pair)`, `damping(Pair)` and `impact(speed, Pair)`.
 ///
-/// A tangential law is a function (v_s, F_n, Pair) → F_s on the second grain; what it takes is F_s · v_s. One with a
-/// memory names its `vectors` and `scalars`, is a function (Slip, SlipMemory) → F_s, and has an `energy`.
+/// A tangential law is a function (v_s, F_n, Pair) → F_s on the second grain; what it takes is F_s · v_s. One
+/// with a memory names its `vectors` and `scalars`, is a function (Slip, SlipMemory) → F_s, and has an
+/// `energy`.
 namespace chute::laws {
 
 using Normal = std::variant<SpringDashpot, Hertz, HertzLinearDamping, HertzKuwabaraKono, WaltonBraun>;
@@ -37,9 +38,13 @@ struct Contact {
 };
 
 template <class Law>
-concept NormalWithMemory = requires { Law::memory; };
+concept NormalWithMemory = requires {
+  Law::memory;
+};
 template <class Law>
-concept ShearWithMemory = requires { Law::vectors; };
+concept ShearWithMemory = requires {
+  Law::vectors;
+};
 
 inline bool needs_radius(const Contact& contact) {
   return std::visit([](const auto& law) { return law.needs_radius(); }, contact.normal) ||

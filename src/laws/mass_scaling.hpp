@@ -2,7 +2,8 @@
 
 namespace chute::laws {
 
-/// Where the reduced mass enters a contact force: thesis 3.1.1, last paragraph. `damping` is also LAMMPS's gran/hooke.
+/// Where the reduced mass enters a contact force: thesis 3.1.1, last paragraph. `damping` is also LAMMPS's
+/// gran/hooke.
 enum class MassScaling {
   none,     ///< neither term carries m_eff: e_n grows with m_eff
   damping,  ///< the damping coefficient is multiplied by m_eff: e_n falls with m_eff

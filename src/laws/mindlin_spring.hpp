@@ -5,15 +5,15 @@
 
 namespace chute::laws {
 
-/// Tangential spring that stiffens with the contact radius, as Mindlin's theory has it for a given load, thesis (3.22):
+/// Tangential spring that stiffens with the contact radius, as Mindlin's theory has it for a given load,
+/// thesis (3.22):
 ///
 ///     F_s = −min(k_s ξ^{1/2} |ζ|, μ |F_n|) ζ / |ζ|
 ///
-/// k_s in N m^{-3/2}, of the order of Hertz's k_n: (1 − ν)/(1 − ν/2) of it for one material. The cap (3.25) may be
-/// added. The stiffness changes with ξ at constant ζ, which costs the grains nothing: where ξ grows under a stretched
-/// spring, energy appears, and no cap prevents it.
+/// k_s in N m^{-3/2}, of the order of Hertz's k_n: (1 − ν)/(1 − ν/2) of it for one material. The cap (3.25)
+/// may be added. The stiffness changes with ξ at constant ζ, which costs the grains nothing: where ξ grows
+/// under a stretched spring, energy appears, and no cap prevents it.
 struct MindlinSpring {
-  static constexpr bool acts = true;
   static constexpr int vectors = 1, scalars = 0;
   template <int T>
   using Memory = SlipMemory<T, vectors, scalars>;

@@ -8,7 +8,8 @@ struct NormalForce {
   double loss_rate;  ///< dissipated energy per time
 };
 
-/// The same for a law that remembers how the contact was loaded: what it dissipates it knows exactly, step by step.
+/// The same for a law that remembers how the contact was loaded: what it dissipates it knows exactly, step by
+/// step.
 struct RememberedForce {
   double total;  ///< F_n
   double loss;   ///< energy dissipated since the previous step

@@ -27,8 +27,8 @@ Point dormand_prince(const Slope& slope, Point y, double h, Point& error) {
   const Point next =
       y + h * (35.0 / 384 * a + 500.0 / 1113 * c + 125.0 / 192 * d + -2187.0 / 6784 * e + 11.0 / 84 * f);
   const Point g = slope(next);
-  error = h * (71.0 / 57600 * a + -71.0 / 16695 * c + 71.0 / 1920 * d + -17253.0 / 339200 * e + 22.0 / 525 * f +
-               -1.0 / 40 * g);
+  error = h * (71.0 / 57600 * a + -71.0 / 16695 * c + 71.0 / 1920 * d + -17253.0 / 339200 * e +
+               22.0 / 525 * f + -1.0 / 40 * g);
   return next;
 }
 
@@ -63,8 +63,8 @@ NormalImpact integrate_impact(const std::function<double(double, double)>& force
   }
   if (!(t < 1000 * time_scale)) return {0, never, deepest};
 
-  // The last part with s = √ξ as the variable that counts down to 0: then powers of √ξ in the force are smooth.
-  // ds/dt = u / 2s, so du/ds = −F 2s / (m u) and dt/ds = 2s / u.
+  // The last part with s = √ξ as the variable that counts down to 0: then powers of √ξ in the force are
+  // smooth. ds/dt = u / 2s, so du/ds = −F 2s / (m u) and dt/ds = 2s / u.
   constexpr int parts = 64;
   const double ds = -std::sqrt(y.xi) / parts;
   const auto at = [&](double s, double u) { return Point{2 * s / u, slope({s * s, u}).u * 2 * s / u}; };

@@ -10,8 +10,8 @@ struct Pair {
   Pair(double reduced_mass, double effective_radius = 0) : m_eff(reduced_mass), r_eff(effective_radius) {}
 };
 
-/// A stiffness or damping that may depend on the pair: by the mass conventions of thesis 3.1.1 (per_mass), by an
-/// asked restitution (per_root_mass), or by Hertz's theory of a material (per_root_radius, (1.19)).
+/// A stiffness or damping that may depend on the pair: by the mass conventions of thesis 3.1.1 (per_mass), by
+/// an asked restitution (per_root_mass), or by Hertz's theory of a material (per_root_radius, (1.19)).
 struct PairCoefficient {
   double constant = 0, per_mass = 0, per_root_mass = 0, per_root_radius = 0;
   double operator()(Pair p) const {

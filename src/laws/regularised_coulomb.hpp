@@ -9,7 +9,6 @@ namespace chute::laws {
 
 /// No tangential force at all: μ = 0.
 struct Frictionless {
-  static constexpr bool acts = false;
   template <int T>
   Vec<T> operator()(const Vec<T>&, double, Pair) const {
     return {};
@@ -20,10 +19,9 @@ struct Frictionless {
 ///
 ///     F_s = −min(γ_s |v_s|, μ |F_n|) v_s / |v_s|
 ///
-/// γ_s is technical: large enough to come close to Coulomb's law, small enough for the time step. With mass scaling
-/// `damping` or `both` it is multiplied by m_eff.
+/// γ_s is technical: large enough to come close to Coulomb's law, small enough for the time step. With mass
+/// scaling `damping` or `both` it is multiplied by m_eff.
 struct RegularisedCoulomb {
-  static constexpr bool acts = true;
   double viscosity = 0;  ///< γ_s
   double friction = 0;   ///< μ
   MassScaling scaling = MassScaling::none;

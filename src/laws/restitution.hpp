@@ -11,12 +11,12 @@ struct ConstantRestitution {
   double operator()(double) const { return e_n; }
 };
 
-/// e_n(v) = 1 − a (v/v_0)^δ, thesis 2.1.3, kept at 0 where it would fall below. δ = 1/5 is what viscoelastic spheres do
-/// (3.6) as e_n → 1; slow collisions are then nearly elastic, which avoids inelastic collapse.
+/// e_n(v) = 1 − a (v/v_0)^δ, thesis 2.1.3, kept at 0 where it would fall below. δ = 1/5 is what viscoelastic
+/// spheres do (3.6) as e_n → 1; slow collisions are then nearly elastic, which avoids inelastic collapse.
 struct PowerLawRestitution {
-  double loss = 0;          ///< a = 1 − e_n at v_0
-  double velocity = 1;      ///< v_0 > 0
-  double exponent = 0.2;    ///< δ
+  double loss = 0;        ///< a = 1 − e_n at v_0
+  double velocity = 1;    ///< v_0 > 0
+  double exponent = 0.2;  ///< δ
   double operator()(double v) const {
     return std::max(0.0, 1 - loss * std::pow(std::abs(v) / velocity, exponent));
   }
@@ -34,9 +34,10 @@ inline double restitution_at(const Restitution& law, double v_n) {
   return std::visit([&](const auto& e) { return e(v_n); }, law);
 }
 
-/// Contact-time cut-off, thesis 2.1.3: a collision of a grain that collided less than t_c ago loses no normal energy,
-/// e_n = 1. Real contacts last; grains that hit each other faster than that are in contact, and a contact at rest
-/// dissipates nothing. It keeps the event-driven method out of inelastic collapse. t_c = 0 is no cut-off.
+/// Contact-time cut-off, thesis 2.1.3: a collision of a grain that collided less than t_c ago loses no normal
+/// energy, e_n = 1. Real contacts last; grains that hit each other faster than that are in contact, and a
+/// contact at rest dissipates nothing. It keeps the event-driven method out of inelastic collapse. t_c = 0 is
+/// no cut-off.
 struct ContactTimeCutoff {
   double contact_time = 0;  ///< t_c
 

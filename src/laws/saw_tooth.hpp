@@ -5,15 +5,14 @@
 
 namespace chute::laws {
 
-/// Asperities that yield one after the other, after Brilliantov et al., thesis (3.19), read with |F_n| and truncation
-/// towards zero, so that the force is odd in ζ:
+/// Asperities that yield one after the other, after Brilliantov et al., thesis (3.19), read with |F_n| and
+/// truncation towards zero, so that the force is odd in ζ:
 ///
 ///     F_s = −μ |F_n| (ζ/ζ_0 − trunc(ζ/ζ_0)),    ζ = ∫ v_s dt (3.14)
 ///
-/// In 3D along ζ. The time step has to resolve ζ_0. At constant F_n the force is conservative: each tooth gives back
-/// on the way home what it took.
+/// In 3D along ζ. The time step has to resolve ζ_0. At constant F_n the force is conservative: each tooth
+/// gives back on the way home what it took.
 struct SawTooth {
-  static constexpr bool acts = true;
   static constexpr int vectors = 1, scalars = 0;
   template <int T>
   using Memory = SlipMemory<T, vectors, scalars>;
@@ -36,7 +35,8 @@ struct SawTooth {
   /// ½ μ |F_n| ζ_0 for each whole tooth, and its share of the last.
   template <int T>
   double energy(const Slip<T>& slip, const Memory<T>& memory) const {
-    const double teeth = magnitude(memory.vector[0]) / length, whole = std::trunc(teeth), rest = teeth - whole;
+    const double teeth = magnitude(memory.vector[0]) / length, whole = std::trunc(teeth),
+                 rest = teeth - whole;
     return 0.5 * friction * std::abs(slip.normal_force) * length * (whole + rest * rest);
   }
 };

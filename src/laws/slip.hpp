@@ -17,8 +17,8 @@ struct Slip {
   Pair pair;
 };
 
-/// What such a law remembers of one contact. Vectors lie in the contact plane and turn with it; in 2D they are
-/// components along s (1.11). Everything is 0 when a contact begins.
+/// What such a law remembers of one contact. Vectors lie in the contact plane and turn with it; in 2D they
+/// are components along s (1.11). Everything is 0 when a contact begins.
 template <int T, int Vectors, int Scalars>
 struct SlipMemory {
   std::array<Vec<T>, static_cast<std::size_t>(Vectors)> vector{};

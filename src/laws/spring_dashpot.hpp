@@ -12,14 +12,14 @@ namespace chute::laws {
 ///
 ///     F_n = k_n ξ + γ_n dξ/dt
 ///
-/// with overlap ξ > 0. Near the end of a contact the damping outweighs the spring and the force attracts; the contact
-/// ends when ξ returns to 0, so that (3.2), (3.3) hold exactly. Damping is either given (γ_n, subject to
-/// `mass_scaling`) or derived for each pair so that the pair has the asked restitution:
-/// γ_n = −2 ln e_n √(k_n m_eff / (π² + ln² e_n)), from (3.2) and (3.3).
+/// with overlap ξ > 0. Near the end of a contact the damping outweighs the spring and the force attracts; the
+/// contact ends when ξ returns to 0, so that (3.2), (3.3) hold exactly. Damping is either given (γ_n, subject
+/// to `mass_scaling`) or derived for each pair so that the pair has the asked restitution: γ_n = −2 ln e_n
+/// √(k_n m_eff / (π² + ln² e_n)), from (3.2) and (3.3).
 ///
-/// Where attraction is not allowed (laws::Contact::attraction), the grains part when the force vanishes and drift
-/// until ξ = 0. They lose less then; `clipped_restitution` is the closed form, and `from_restitution` takes the
-/// damping that gives the asked restitution in that case.
+/// Where attraction is not allowed (laws::Contact::attraction), the grains part when the force vanishes and
+/// drift until ξ = 0. They lose less then; `clipped_restitution` is the closed form, and `from_restitution`
+/// takes the damping that gives the asked restitution in that case.
 class SpringDashpot {
  public:
   static SpringDashpot from_restitution(double stiffness, double e_n, bool attraction = true) {
@@ -62,8 +62,9 @@ class SpringDashpot {
   /// Coefficient of normal restitution, (3.2).
   double restitution(Pair p) const { return std::exp(-damping(p) / (2 * p.m_eff) * contact_time(p)); }
 
-  /// A head-on impact with the given speed; the deepest overlap is ξ_0 = v √(m/k) exp(−x/√(1−x²) arccos x) with the
-  /// damping ratio x, the equality in (3.4) for x = 0. With over-critical damping the grains never part.
+  /// A head-on impact with the given speed; the deepest overlap is ξ_0 = v √(m/k) exp(−x/√(1−x²) arccos x)
+  /// with the damping ratio x, the equality in (3.4) for x = 0. With over-critical damping the grains never
+  /// part.
   NormalImpact impact(double speed, Pair p) const {
     const double ratio = damping(p) / (2 * std::sqrt(stiffness(p) * p.m_eff));
     const double free = speed * std::sqrt(p.m_eff / stiffness(p));
@@ -72,8 +73,8 @@ class SpringDashpot {
     return {restitution(p), contact_time(p), deepest};
   }
 
-  /// Restitution with the attraction clipped, for a damping ratio x = γ_n / (2 √(k_n m_eff)) below 1. The force is 0
-  /// at ω t = atan2(2 x w, 2 x² − 1), with w = √(1 − x²) the frequency in units of √(k_n/m_eff).
+  /// Restitution with the attraction clipped, for a damping ratio x = γ_n / (2 √(k_n m_eff)) below 1. The
+  /// force is 0 at ω t = atan2(2 x w, 2 x² − 1), with w = √(1 − x²) the frequency in units of √(k_n/m_eff).
   static double clipped_restitution(double ratio) {
     const double w = std::sqrt(1 - ratio * ratio), phase = std::atan2(2 * ratio * w, 2 * ratio * ratio - 1);
     return std::exp(-ratio / w * phase) * (ratio / w * std::sin(phase) - std::cos(phase));
@@ -83,8 +84,8 @@ class SpringDashpot {
   double stiffness_ = 0, stiffness_per_mass_ = 0;
   double damping_ = 0, damping_per_root_mass_ = 0, damping_per_mass_ = 0;
 
-  /// Inverse of clipped_restitution, which falls from 1 to e^-2 at ratio 1: halving to the last bit. Restitutions
-  /// below e^-2 = 0.135 need over-critical damping and give the ratio 1.
+  /// Inverse of clipped_restitution, which falls from 1 to e^-2 at ratio 1: halving to the last bit.
+  /// Restitutions below e^-2 = 0.135 need over-critical damping and give the ratio 1.
   static double clipped_damping_ratio(double e_n) {
     double low = 0, high = 1;
     for (int k = 0; k < 60; ++k) {

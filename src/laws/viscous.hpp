@@ -4,10 +4,9 @@
 
 namespace chute::laws {
 
-/// Viscous friction, thesis (3.11): F_s = −γ_s v_s, whatever the normal force. Grazing impacts therefore dissipate as
-/// much as any. γ_s in kg/s, multiplied by m_eff with the mass conventions `damping` and `both`.
+/// Viscous friction, thesis (3.11): F_s = −γ_s v_s, whatever the normal force. Grazing impacts therefore
+/// dissipate as much as any. γ_s in kg/s, multiplied by m_eff with the mass conventions `damping` and `both`.
 struct Viscous {
-  static constexpr bool acts = true;
   double viscosity = 0;  ///< γ_s
   MassScaling scaling = MassScaling::none;
 

@@ -15,21 +15,22 @@ struct Collision {
   double normal_loss = 0, shear_loss = 0;  ///< energies dissipated; neither is ever negative
 };
 
-/// Walton's three-parameter model of a collision, thesis 2.1.3: restitution e_n, friction μ for collisions that slide,
-/// and tangential restitution e_s = −β for those that stick. With v_n < 0 on approach:
+/// Walton's three-parameter model of a collision, thesis 2.1.3: restitution e_n, friction μ for collisions
+/// that slide, and tangential restitution e_s = −β for those that stick. With v_n < 0 on approach:
 ///
 ///     J_n = −m_eff (1 + e_n) v_n                                     (2.25)
 ///     J_s = −m_s (1 + β) v_s         if that is no more than μ J_n,  (2.29), printed with β − 1
 ///     J_s = −μ J_n v_s / |v_s|       else                            (2.26)
 ///
-/// m_s = 2/7 m_eff for solid spheres. So ψ_f = −β ψ_i up to ψ_0 = 7/2 μ (1 + e_n)/(1 + β) (2.31), printed with 1 − β,
-/// and ψ_f = ψ_i − 7/2 μ (1 + e_n) beyond (2.28), where the sign is that of ψ. J acts on j (2.22).
+/// m_s = 2/7 m_eff for solid spheres. So ψ_f = −β ψ_i up to ψ_0 = 7/2 μ (1 + e_n)/(1 + β) (2.31), printed
+/// with 1 − β, and ψ_f = ψ_i − 7/2 μ (1 + e_n) beyond (2.28), where the sign is that of ψ. J acts on j
+/// (2.22).
 struct Walton {
   double friction = 0;  ///< μ ≥ 0
   double beta = 0;      ///< β in [−1, 1]: 1 is perfectly rough, 0 stops the slip, −1 is smooth
 
-  /// Lets i and j, whose line of centres is n from i to j, collide with the restitution e_n in [0, 1]. Grains that do
-  /// not approach are left alone.
+  /// Lets i and j, whose line of centres is n from i to j, collide with the restitution e_n in [0, 1]. Grains
+  /// that do not approach are left alone.
   template <int D>
   Collision<D> operator()(const Vec<D>& n, double e_n, Collider<D>& i, Collider<D>& j) const {
     Collision<D> collision;

@@ -14,9 +14,10 @@ namespace chute::laws {
 ///     F_n = k_1 ξ            while the contact is loaded further than ever before,
 ///     F_n = k_2 (ξ − ξ_0)    while it is unloaded and loaded again, and 0 for ξ < ξ_0,
 ///
-/// with ξ_0 = (1 − k_1/k_2) ξ_max, where the second line leaves the first. k_2 is constant, e_n = √(k_1/k_2), or grows
-/// with the largest force, k_2 = k_1 + s k_1 ξ_max; then (3.8) holds. As printed, (3.7) has the sign of an attraction,
-/// would attract for ξ < ξ_0, and would jump back to the first line, out of nothing, when an unloading turns round.
+/// with ξ_0 = (1 − k_1/k_2) ξ_max, where the second line leaves the first. k_2 is constant, e_n = √(k_1/k_2),
+/// or grows with the largest force, k_2 = k_1 + s k_1 ξ_max; then (3.8) holds. As printed, (3.7) has the sign
+/// of an attraction, would attract for ξ < ξ_0, and would jump back to the first line, out of nothing, when
+/// an unloading turns round.
 ///
 /// Remembers ξ_max. The contact forgets its deformation when ξ returns to 0.
 class WaltonBraun {
@@ -54,8 +55,8 @@ class WaltonBraun {
     return 0.5 * force * force / k_2;
   }
 
-  /// A quarter of a period with k_1, one with k_2, and the free way from ξ_0 to 0. e_n = √(k_1/k_2), with (3.8) where
-  /// k_2 depends on the load.
+  /// A quarter of a period with k_1, one with k_2, and the free way from ξ_0 to 0. e_n = √(k_1/k_2), with
+  /// (3.8) where k_2 depends on the load.
   NormalImpact impact(double speed, Pair p) const {
     const double loading = std::sqrt(p.m_eff / k_1_), deepest = speed * loading;
     const double k_2 = unloading_stiffness(deepest), e_n = std::sqrt(k_1_ / k_2);

@@ -6,18 +6,19 @@
 
 namespace chute::laws {
 
-/// Tangential spring that softens towards the Coulomb limit, after Mindlin and Deresiewicz as simplified by Walton and
-/// Braun, thesis (3.17), (3.18). With f the friction along the direction of the first slip, positive against it:
+/// Tangential spring that softens towards the Coulomb limit, after Mindlin and Deresiewicz as simplified by
+/// Walton and Braun, thesis (3.17), (3.18). With f the friction along the direction of the first slip,
+/// positive against it:
 ///
 ///     df/dζ = k_s0 (1 − (f − f*)/(μ|F_n| − f*))^{1/3}    while the slip goes that way,
 ///     df/dζ = k_s0 (1 − (f* − f)/(μ|F_n| + f*))^{1/3}    while it goes back,
 ///
-/// f* is 0, then f at each reversal; the bracket is kept in [0, 1], and |f| ≤ μ|F_n| after each step. (3.17) is an Euler
-/// step of this; here it is solved exactly for the F_n of the step, which needs no small steps: with q the bracket,
-/// q^{2/3} falls linearly. In 3D the component of the slip along the first direction, which turns with the contact
-/// plane, follows this law; the one across is a spring k_s0, and both together are kept within the limit.
+/// f* is 0, then f at each reversal; the bracket is kept in [0, 1], and |f| ≤ μ|F_n| after each step. (3.17)
+/// is an Euler step of this; here it is solved exactly for the F_n of the step, which needs no small steps:
+/// with q the bracket, q^{2/3} falls linearly. In 3D the component of the slip along the first direction,
+/// which turns with the contact plane, follows this law; the one across is a spring k_s0, and both together
+/// are kept within the limit.
 struct WaltonBraunMindlin {
-  static constexpr bool acts = true;
   static constexpr int vectors = 2, scalars = 3;
   template <int T>
   using Memory = SlipMemory<T, vectors, scalars>;
@@ -30,8 +31,8 @@ struct WaltonBraunMindlin {
 
   template <int T>
   Vec<T> operator()(const Slip<T>& slip, Memory<T>& memory) const {
-    auto& [axis, across] = memory.vector;           // the first direction; friction across it
-    auto& [f, turning, heading] = memory.scalar;    // f, f*, and ±1: which way the slip went last
+    auto& [axis, across] = memory.vector;         // the first direction; friction across it
+    auto& [f, turning, heading] = memory.scalar;  // f, f*, and ±1: which way the slip went last
     const double k = stiffness(slip.pair), limit = friction * std::abs(slip.normal_force);
     if (heading == 0) {
       const double first = magnitude(slip.way);

@@ -26,8 +26,8 @@ void normal_facts(const scene::Scene& scene, const laws::Contact& contact, bool 
   const bool hertz = has_hertz_spring(scene.contact.normal);
   const bool kono = scene.contact.normal.law == scene::NormalSpec::Law::hertz_kuwabara_kono;
   const std::string time = si ? "s" : "sqrt(d/g)", speed = si ? "m/s" : "sqrt(gd)";
-  const std::string at = scene.contact.normal.at_velocity
-                             ? fmt::format(" at {:.4g} {}", v, speed) : std::string();
+  const std::string at =
+      scene.contact.normal.at_velocity ? fmt::format(" at {:.4g} {}", v, speed) : std::string();
 
   add("t_n", impact.contact_time, time,
       (many ? "contact time of two mean grains" : "contact time of the grain with the bed") + at);
@@ -57,7 +57,8 @@ void normal_facts(const scene::Scene& scene, const laws::Contact& contact, bool 
 /// What the tangential law comes to, for that impact and that time step.
 void shear_facts(const laws::Contact& contact, laws::Pair pair, const laws::NormalImpact& impact, double dt,
                  bool linear, bool si, const Add& add) {
-  // Slip decays at γ_s (1/m_eff + R²/I for each grain): 7/2 for solid spheres. The integration wants this ≪ 1.
+  // Slip decays at γ_s (1/m_eff + R²/I for each grain): 7/2 for solid spheres. The integration wants this
+  // ≪ 1.
   const auto decay = [&](double viscosity) {
     add("gamma_s dt 7/2m", viscosity * 3.5 / pair.m_eff * dt, "",
         "decay of slip in one step; above about 1 the integration is unstable");
@@ -105,7 +106,8 @@ std::vector<Fact> facts(const scene::Scene& scene) {
   normal_facts(scene, contact, si, add);
   add("dt", dt, unit("s", "sqrt(d/g)"), "time step");
   add("t_n/dt", impact.contact_time / dt, "", "steps per contact; 50 is usual, under 20 is rough");
-  shear_facts(contact, pair, impact, dt, scene.contact.tangential.law != scene::ShearSpec::Law::mindlin, si, add);
+  shear_facts(contact, pair, impact, dt, scene.contact.tangential.law != scene::ShearSpec::Law::mindlin, si,
+              add);
   if (scene.bed.kind != scene::Bed::Kind::none) {
     const double gap = scene.bed.kind == scene::Bed::Kind::row ? scene.bed.gap : scene.bed.gap_max;
     add("Phi", d / d_bed, "", "size ratio R/r");
@@ -114,7 +116,8 @@ std::vector<Fact> facts(const scene::Scene& scene) {
   }
   const bool hertz = has_hertz_spring(scene.contact.normal);
   const double stiffness = std::visit([&](const auto& law) { return law.stiffness(pair); }, contact.normal);
-  const double half_period = hertz ? impact.contact_time : std::numbers::pi * std::sqrt(pair.m_eff / stiffness);
+  const double half_period =
+      hertz ? impact.contact_time : std::numbers::pi * std::sqrt(pair.m_eff / stiffness);
   add("v_bf", 2 * chord * std::cos(std::asin(0.999)) / half_period, unit("m/s", "sqrt(gd)"),
       "brake failure above this velocity at sin(vartheta) = 0.999 (2.16, corrected)");
   add("steps", steps, "", "time steps of the run");

@@ -249,7 +249,9 @@ class Run {
                                 {"time", engine().time()},
                                 {"end", state}};
     if (!why.empty()) json["why"] = why;
-    write_atomically(directory_.file("run.json"), json.dump(2) + "\n");
+    // a command line may hold any bytes
+    write_atomically(directory_.file("run.json"),
+                     json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   }
 
   /// Slices of about a tenth of a second, so that progress and interruption feel prompt.

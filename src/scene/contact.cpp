@@ -9,9 +9,9 @@ namespace {
 using namespace std::string_view_literals;
 constexpr std::array normal_words{"spring-dashpot"sv, "hertz"sv, "hertz-linear-damping"sv,
                                   "hertz-kuwabara-kono"sv, "walton-braun"sv};
-constexpr std::array shear_words{"coulomb-viscous"sv, "frictionless"sv, "coulomb"sv,
-                                 "viscous"sv,         "cundall-strack"sv, "mindlin"sv,
-                                 "walton-braun-mindlin"sv, "saw-tooth"sv};
+constexpr std::array shear_words{
+    "coulomb-viscous"sv, "frictionless"sv,         "coulomb"sv,  "viscous"sv, "cundall-strack"sv,
+    "mindlin"sv,         "walton-braun-mindlin"sv, "saw-tooth"sv};
 constexpr std::array scaling_words{"none"sv, "damping"sv, "both"sv};
 constexpr Range restitution_range{0, 1, true, false};
 
@@ -72,7 +72,8 @@ static void describe(Archive& a, NormalSpec& n) {
     a.check(!n.young || n.mass_scaling != laws::MassScaling::both, "mass_scaling",
             "\"both\" scales a given stiffness; a material has its own");
     a.check(!depends_on_velocity(n) || n.at_velocity, "at_velocity",
-            "is missing: with this law t_n and e_n depend on the impact velocity. Give the fastest that is expected");
+            "is missing: with this law t_n and e_n depend on the impact velocity. Give the fastest that is "
+            "expected");
   }
 }
 
@@ -107,8 +108,9 @@ static void describe_contact(Archive& a, ContactSpec& contact) {
   if constexpr (Archive::reading) {
     const bool mindlin = contact.tangential.law == ShearSpec::Law::mindlin;
     a.check(!contact.tangential.stiffness_ratio || mindlin == has_hertz_spring(contact.normal), "tangential",
-            mindlin ? "k_s/k_n of \"mindlin\" is a number with Hertz's spring only; give its stiffness (N m^-3/2)"
-                    : "k_s/k_n is a number with a linear normal spring only; give the stiffness (N/m)");
+            mindlin
+                ? "k_s/k_n of \"mindlin\" is a number with Hertz's spring only; give its stiffness (N m^-3/2)"
+                : "k_s/k_n is a number with a linear normal spring only; give the stiffness (N/m)");
   }
 }
 
@@ -124,7 +126,9 @@ void check_contact_time(const Scene& scene, const TomlReader& reader) {
                              : "the damping is over-critical: grains would stick together and never part");
 }
 
-bool has_hertz_spring(const NormalSpec& n) { return n.law != Law::spring_dashpot && n.law != Law::walton_braun; }
+bool has_hertz_spring(const NormalSpec& n) {
+  return n.law != Law::spring_dashpot && n.law != Law::walton_braun;
+}
 
 double impact_velocity(const ContactSpec& contact) { return contact.normal.at_velocity.value_or(1); }
 

@@ -11,7 +11,8 @@ laws::Hertz hertz(const NormalSpec& n, double stiffness) {
                  : laws::Hertz::from_stiffness(stiffness, n.mass_scaling);
 }
 
-/// Hertz's spring with the asked damping: as given, or such that the reference pair has the asked restitution.
+/// Hertz's spring with the asked damping: as given, or such that the reference pair has the asked
+/// restitution.
 template <class Law, class Make>
 Law damped_hertz(const NormalSpec& n, double stiffness, bool attraction, laws::Pair reference,
                  const Make& make) {
@@ -25,7 +26,8 @@ Law damped_hertz(const NormalSpec& n, double stiffness, bool attraction, laws::P
   return make(elastic, laws::damping_for(restitution, *n.restitution, guess));
 }
 
-/// The same where the contact time is given: at equal restitution t_n ∝ k_n^{-2/5}, with any of these dampings.
+/// The same where the contact time is given: at equal restitution t_n ∝ k_n^{-2/5}, with any of these
+/// dampings.
 template <class Law, class Make>
 Law damped_hertz(const NormalSpec& n, bool attraction, laws::Pair reference, const Make& make) {
   if (!n.contact_time) return damped_hertz<Law>(n, n.stiffness.value_or(0), attraction, reference, make);
@@ -69,7 +71,7 @@ laws::Normal normal_law(const ContactSpec& contact, laws::Pair reference) {
           });
     }
     case NormalSpec::Law::walton_braun:
-      return n.restitution  ? laws::WaltonBraun::from_restitution(*n.stiffness, *n.restitution)
+      return n.restitution ? laws::WaltonBraun::from_restitution(*n.stiffness, *n.restitution)
              : n.hardening ? laws::WaltonBraun::from_hardening(*n.stiffness, *n.hardening)
                            : laws::WaltonBraun::from_stiffnesses(*n.stiffness, *n.unloading_stiffness);
   }
@@ -93,14 +95,21 @@ laws::Shear shear_law(const ContactSpec& contact, const laws::Normal& normal) {
   if (s.law == Law::viscous) return laws::Viscous{s.viscosity, s.mass_scaling};
   if (s.friction == 0) return laws::Frictionless{};
   switch (s.law) {
-    case Law::coulomb_viscous: return laws::RegularisedCoulomb{s.viscosity, s.friction, s.mass_scaling};
-    case Law::coulomb: return laws::Coulomb{s.friction};
-    case Law::cundall_strack: return laws::CundallStrack{shear_stiffness(s, normal), {s.friction, s.cap}};
-    case Law::mindlin: return laws::MindlinSpring{shear_stiffness(s, normal), {s.friction, s.cap}};
-    case Law::walton_braun_mindlin: return laws::WaltonBraunMindlin{shear_stiffness(s, normal), s.friction};
-    case Law::saw_tooth: return laws::SawTooth{s.friction, s.tooth};
+    case Law::coulomb_viscous:
+      return laws::RegularisedCoulomb{s.viscosity, s.friction, s.mass_scaling};
+    case Law::coulomb:
+      return laws::Coulomb{s.friction};
+    case Law::cundall_strack:
+      return laws::CundallStrack{shear_stiffness(s, normal), {s.friction, s.cap}};
+    case Law::mindlin:
+      return laws::MindlinSpring{shear_stiffness(s, normal), {s.friction, s.cap}};
+    case Law::walton_braun_mindlin:
+      return laws::WaltonBraunMindlin{shear_stiffness(s, normal), s.friction};
+    case Law::saw_tooth:
+      return laws::SawTooth{s.friction, s.tooth};
     case Law::frictionless:
-    case Law::viscous: break;
+    case Law::viscous:
+      break;
   }
   return laws::Frictionless{};
 }

@@ -5,7 +5,8 @@
 
 namespace chute::scene {
 
-/// [contact.normal]. What a key means depends on the law; see scene/contact.cpp for which keys each law takes.
+/// [contact.normal]. What a key means depends on the law; see scene/contact.cpp for which keys each law
+/// takes.
 struct NormalSpec {
   enum class Law {
     spring_dashpot,
@@ -17,11 +18,13 @@ struct NormalSpec {
   std::optional<double> stiffness;       ///< k_n: N/m, with Hertz's spring N m^{-3/2}; k_1 of walton-braun
   std::optional<double> contact_time;    ///< instead of the stiffness: t_n of the reference pair
   std::optional<double> young, poisson;  ///< or the material, for Hertz's spring (1.19); E in Pa
-  std::optional<double> restitution;     ///< e_n; of every pair with linear springs, else of the reference pair
-  std::optional<double> damping;         ///< or γ_n
-  std::optional<double> relaxation;      ///< or the relaxation time A, γ_n = 3/2 A k_n, of hertz-kuwabara-kono
-  std::optional<double> unloading_stiffness, hardening;  ///< walton-braun: k_2, or s (1/m) of a load-dependent k_2
-  std::optional<double> at_velocity;  ///< where t_n and e_n depend on the impact velocity: the one they are given for
+  std::optional<double> restitution;  ///< e_n; of every pair with linear springs, else of the reference pair
+  std::optional<double> damping;      ///< or γ_n
+  std::optional<double> relaxation;   ///< or the relaxation time A, γ_n = 3/2 A k_n, of hertz-kuwabara-kono
+  std::optional<double> unloading_stiffness,
+      hardening;  ///< walton-braun: k_2, or s (1/m) of a load-dependent k_2
+  std::optional<double>
+      at_velocity;  ///< where t_n and e_n depend on the impact velocity: the one they are given for
   laws::MassScaling mass_scaling = laws::MassScaling::none;
 };
 

@@ -20,7 +20,8 @@ using namespace std::string_view_literals;
 constexpr std::array units_words{"reduced"sv, "SI"sv};
 constexpr std::array bed_words{"row"sv, "disordered-row"sv, "none"sv};
 constexpr std::array lattice_words{"square"sv, "none"sv};
-constexpr std::array method_words{"soft"sv};
+constexpr std::array method_words{"soft"sv, "event"sv, "stochastic"sv};
+constexpr std::array impact_friction_words{"published"sv, "without-rotation"sv};
 constexpr std::array integrator_words{"gear5"sv, "verlet"sv};
 
 /// "18 deg" or "0.3 rad" in radians; nothing if it is neither.
@@ -107,11 +108,26 @@ static void describe(Archive& a, GrainsSpec& grains) {
 
 template <class Archive>
 static void describe(Archive& a, EngineSpec& engine) {
+  using Method = EngineSpec::Method;
   a.choice("method", engine.method, method_words);
-  a.choice("integrator", engine.integrator, integrator_words);
+  if (engine.method == Method::soft) a.choice("integrator", engine.integrator, integrator_words);
   a.value("steps_per_contact", engine.steps_per_contact, at_least(5));
   a.value("time_step", engine.time_step, positive);
-  a.value("deepest_overlap", engine.deepest_overlap, Range{0, 1, true, false});
+  if (engine.method == Method::soft) {
+    a.value("deepest_overlap", engine.deepest_overlap, Range{0, 1, true, false});
+    return;
+  }
+  a.value("restitution", engine.restitution, unit_interval);
+  a.value("friction", engine.friction, non_negative);
+  a.value("tangential_restitution", engine.tangential_restitution, between(-1, 1));
+  if (engine.method == Method::event) {
+    a.value("contact_time", engine.contact_time, non_negative);
+    a.value("restitution_velocity", engine.restitution_velocity, positive);
+    if (engine.restitution_velocity) a.value("restitution_exponent", engine.restitution_exponent, positive);
+  } else {
+    a.choice("impact_friction", engine.impact_friction, impact_friction_words);
+    a.value("shadowed", engine.shadowed);
+  }
 }
 
 template <class Archive>
@@ -172,6 +188,11 @@ static void describe(Archive& a, Scene& scene) {
   a.required_section("run", run);
   if constexpr (Archive::reading) {
     a.check(scene.grains.density > 0, "grains", "density is missing; SI scenes need it (kg/m³)");
+    if (scene.engine.method == EngineSpec::Method::stochastic) {
+      a.check(scene.grains.count == 1 && scene.bed.kind != Bed::Kind::none, "engine",
+              "method = \"stochastic\" moves a single ball along a bed");
+      a.check(scene.grains.start.velocity > 0, "grains", "the stochastic ball must start downhill: velocity > 0");
+    }
     const double d = scene.bed.diameter, g = scene.incline.gravity;
     scene.output.series.every = scene.duration / 400;
     scene.output.checkpoint = scene.duration / 10;

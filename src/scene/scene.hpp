@@ -57,11 +57,21 @@ struct GrainsSpec {
 };
 
 struct EngineSpec {
-  enum class Method { soft } method = Method::soft;
+  enum class Method { soft, event, stochastic } method = Method::soft;
   enum class Integrator { gear5, verlet } integrator = Integrator::gear5;
   double steps_per_contact = 50;   ///< t_n of two mean grains (of grain and bed, if there is one grain) over the step
   std::optional<double> time_step; ///< instead
   double deepest_overlap = 0.25;   ///< of the smaller radius; beyond it the run stops
+  // event, stochastic: Walton's collisions. What is not given is that of [contact], for the reference pair
+  std::optional<double> restitution, friction;
+  double tangential_restitution = 0;             ///< β
+  // event
+  std::optional<double> contact_time;            ///< t_c of the cut-off, 0: none; default t_n of [contact]
+  std::optional<double> restitution_velocity;    ///< v_0 at which e_n holds: e_n(v) = 1 − (1 − e_n)(v/v_0)^δ
+  double restitution_exponent = 0.2;             ///< δ
+  // stochastic
+  enum class Friction { published, without_rotation } impact_friction = Friction::published;  ///< (4.8) or (4.9)
+  bool shadowed = false;                         ///< only angles that a ball can reach
 };
 
 /// When one kind of output is written, in the scene's time.

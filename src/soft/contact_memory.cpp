@@ -15,7 +15,8 @@ ContactMemory<D>::ContactMemory(const laws::Contact& laws, SlipRule rule) : rule
       laws.normal);
   std::visit(
       [&]<class Law>(const Law&) {
-        if constexpr (laws::ShearWithMemory<Law>) shear_ = true, vectors_ = Law::vectors, scalars_ = Law::scalars;
+        if constexpr (laws::ShearWithMemory<Law>)
+          shear_ = true, vectors_ = Law::vectors, scalars_ = Law::scalars;
       },
       laws.shear);
   columns_.resize(static_cast<std::size_t>(first_scalar() + (shear_ ? 1 + scalars_ : 0)));
@@ -81,7 +82,8 @@ void ContactMemory<D>::turn(const Grains<D>& grains, const Contacts<D>& contacts
         for (int k = 0; k < 3; ++k) a[k] = column(first_vector() + v * T + k)[c];
         a = cosine * a + cross(axis, a) + (dot(axis, a) / (1 + cosine)) * axis;
         a = c_twist * a + s_twist * cross(now, a);
-        a = a - dot(a, now) * now;  // rounding must not tilt it out of the plane in the course of a long contact
+        a = a -
+            dot(a, now) * now;  // rounding must not tilt it out of the plane in the course of a long contact
         for (int k = 0; k < 3; ++k) column(first_vector() + v * T + k)[c] = a[k];
       }
     }

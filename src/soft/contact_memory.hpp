@@ -14,13 +14,14 @@ enum class SlipRule {
   midpoint    ///< velocities of the half step (verlet): the present one
 };
 
-/// What laws with a memory keep of each contact, from the step in which it begins to the one in which ξ returns to 0.
-/// It belongs to the pair (i, j), whatever the neighbour list does, however often the pair crosses a periodic border,
-/// and is part of a checkpoint. Carrying it on is a merge of two lists that are ordered alike.
+/// What laws with a memory keep of each contact, from the step in which it begins to the one in which ξ
+/// returns to 0. It belongs to the pair (i, j), whatever the neighbour list does, however often the pair
+/// crosses a periodic border, and is part of a checkpoint. Carrying it on is a merge of two lists that are
+/// ordered alike.
 ///
-/// Vectors in the contact plane turn with it in 3D: as n turns, by the smallest rotation from the old n to the new, and
-/// about n by the mean of the two grains' spins, so that a pair that turns as one body keeps its spring. In 2D they
-/// are components along s, which turns with n by itself.
+/// Vectors in the contact plane turn with it in 3D: as n turns, by the smallest rotation from the old n to
+/// the new, and about n by the mean of the two grains' spins, so that a pair that turns as one body keeps its
+/// spring. In 2D they are components along s, which turns with n by itself.
 template <int D>
 class ContactMemory {
  public:
@@ -31,14 +32,14 @@ class ContactMemory {
   /// Does any law of this contact have a memory? Without one nothing else here is called.
   bool needed() const { return normal_count_ > 0 || shear_; }
 
-  /// Takes over what the contacts of the previous step remember, `duration` ago; new ones begin with nothing. Sets
-  /// `way`: how far the surfaces of each contact slipped since, for a new contact since it began.
+  /// Takes over what the contacts of the previous step remember, `duration` ago; new ones begin with nothing.
+  /// Sets `way`: how far the surfaces of each contact slipped since, for a new contact since it began.
   void carry(const Grains<D>& grains, const Contacts<D>& contacts, double duration);
 
   /// Did this contact begin in this step?
   bool fresh(std::size_t contact) const { return source_[contact] < 0; }
-  /// What contacts that ended in this step still have to account for: the energy of their springs, which is lost, and
-  /// the work of the second half of their last step.
+  /// What contacts that ended in this step still have to account for: the energy of their springs, which is
+  /// lost, and the work of the second half of their last step.
   double released() const { return released_; }
 
   double* normal_column(int k) { return columns_[static_cast<std::size_t>(k)].data(); }
@@ -61,7 +62,8 @@ class ContactMemory {
   bool shear_ = false;
   std::size_t count_ = 0;
   std::vector<std::int32_t> i_, j_;
-  // normal law's numbers | previous slip, previous force, the law's vectors | stored energy, the law's scalars
+  // normal law's numbers | previous slip, previous force, the law's vectors | stored energy, the law's
+  // scalars
   std::vector<Array> columns_, older_;
   std::array<Array, D> normal_;  // 3D: n at the previous step
   std::vector<std::int32_t> source_;

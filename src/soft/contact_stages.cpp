@@ -171,17 +171,17 @@ struct ShearKernel {
   }
 };
 
-/// What the surfaces of each contact do, for laws with a memory. What they take is the work done against them minus
-/// the change of what is stored: work by the mean of the forces at the ends of the step, which for a spring is exact.
-/// A force that is there at once when a contact begins or ends acts for half a step before or after, as it does in the
-/// integration.
+/// What the surfaces of each contact do, for laws with a memory. What they take is the work done against them
+/// minus the change of what is stored: work by the mean of the forces at the ends of the step, which for a
+/// spring is exact. A force that is there at once when a contact begins or ends acts for half a step before
+/// or after, as it does in the integration.
 template <class Law, int D>
 void remembering_shear(const Law& law, ContactMemory<D>& memory, double duration, Contacts<D>& contacts) {
   constexpr int T = turns<D>;
   const double inverse_duration = duration > 0 ? 1 / duration : 0;
   for (std::size_t c = 0; c < contacts.count; ++c) {
-    laws::Slip<T> slip{{}, contacts.normal_force[c], contacts.overlap[c],
-                       laws::Pair(contacts.m_eff[c], contacts.r_eff[c])};
+    laws::Slip<T> slip{
+        {}, contacts.normal_force[c], contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c])};
     Vec<T> before, way;
     for (int k = 0; k < T; ++k) {
       slip.way[k] = memory.way()[k][c];
@@ -232,9 +232,9 @@ void ContactStages<D>::find_touching(const search::PairList& pairs, const Grains
                                      Contacts<D>& contacts) {
   const std::size_t n = pairs.size();
   if (hit_.size() < n) hit_.resize(n), touching_.resize(n + 1);
-  run_kernel(isa_, TouchKernel<D>{pointers(grains.position), pairs.i.data(), pairs.j.data(),
-                                  pairs.reach_squared.data(), domain_.length, 0.5 * domain_.length, n,
-                                  hit_.data()});
+  run_kernel(
+      isa_, TouchKernel<D>{pointers(grains.position), pairs.i.data(), pairs.j.data(),
+                           pairs.reach_squared.data(), domain_.length, 0.5 * domain_.length, n, hit_.data()});
   std::size_t count = 0;
   for (std::size_t p = 0; p < n; ++p) {  // without a branch: which pairs touch is not predictable
     touching_[count] = static_cast<std::int32_t>(p);
@@ -250,12 +250,12 @@ void ContactStages<D>::find_touching(const search::PairList& pairs, const Grains
 
 template <int D>
 void ContactStages<D>::geometry(const Grains<D>& grains, Contacts<D>& contacts) const {
-  run_kernel(isa_, GeometryKernel<D>{pointers(grains.position), pointers(grains.velocity),
-                                     pointers(grains.spin), grains.radius.data(), grains.inverse_mass.data(),
-                                     contacts.i.data(), contacts.j.data(), domain_.length,
-                                     0.5 * domain_.length, contacts.count, pointers(contacts.normal),
-                                     contacts.overlap.data(), contacts.closing.data(), contacts.m_eff.data(),
-                                     pointers(contacts.slip)});
+  run_kernel(isa_,
+             GeometryKernel<D>{pointers(grains.position), pointers(grains.velocity), pointers(grains.spin),
+                               grains.radius.data(), grains.inverse_mass.data(), contacts.i.data(),
+                               contacts.j.data(), domain_.length, 0.5 * domain_.length, contacts.count,
+                               pointers(contacts.normal), contacts.overlap.data(), contacts.closing.data(),
+                               contacts.m_eff.data(), pointers(contacts.slip)});
   if (!needs_radius_) return;
   for (std::size_t c = 0; c < contacts.count; ++c) {
     const double a = grains.radius[static_cast<std::size_t>(contacts.i[c])];
@@ -265,8 +265,8 @@ void ContactStages<D>::geometry(const Grains<D>& grains, Contacts<D>& contacts) 
 }
 
 template <int D>
-void ContactStages<D>::evaluate(const search::PairList& pairs, const Grains<D>& grains,
-                                Contacts<D>& contacts, double duration) {
+void ContactStages<D>::evaluate(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
+                                double duration) {
   find_touching(pairs, grains, contacts);
   geometry(grains, contacts);
   if (memory_.needed()) {
@@ -307,10 +307,9 @@ void ContactStages<D>::shear_forces(Contacts<D>& contacts, double duration) {
         if constexpr (laws::ShearWithMemory<Law>)
           remembering_shear<Law, D>(law, memory_, duration, contacts);
         else
-          run_kernel(isa_, ShearKernel<Law, turns<D>>{law, pointers(slip), contacts.normal_force.data(),
-                                                      contacts.m_eff.data(), contacts.count,
-                                                      pointers(contacts.shear_force),
-                                                      contacts.shear_loss.data()});
+          run_kernel(isa_, ShearKernel<Law, turns<D>>{
+                               law, pointers(slip), contacts.normal_force.data(), contacts.m_eff.data(),
+                               contacts.count, pointers(contacts.shear_force), contacts.shear_loss.data()});
       },
       laws_.shear);
 }

@@ -12,17 +12,18 @@
 namespace chute::soft {
 
 /// The stages that turn places and velocities into forces, each a vectorised loop over arrays:
-/// find_touching → geometry → memory → normal → shear → apply. A law is known inside its own stage only, so the
-/// compiled loops add up over the laws instead of multiplying. Where no law has a memory, that stage does nothing.
+/// find_touching → geometry → memory → normal → shear → apply. A law is known inside its own stage only, so
+/// the compiled loops add up over the laws instead of multiplying. Where no law has a memory, that stage does
+/// nothing.
 template <int D>
 class ContactStages {
  public:
   ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa = best_isa(),
                 SlipRule rule = SlipRule::trapezoid);
 
-  /// Fills `contacts` from the pairs that may touch. Allocates only when the list has become longer than ever before.
-  /// `duration` is the time since the previous call; with 0 nothing happens to what the contacts remember, but for
-  /// limits that depend on the present normal force.
+  /// Fills `contacts` from the pairs that may touch. Allocates only when the list has become longer than ever
+  /// before. `duration` is the time since the previous call; with 0 nothing happens to what the contacts
+  /// remember, but for limits that depend on the present normal force.
   void evaluate(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
                 double duration = 0);
 
@@ -42,7 +43,8 @@ class ContactStages {
   Isa isa_;
   ContactMemory<D> memory_;
   bool needs_radius_;
-  std::vector<std::int64_t> hit_;  // 1 where a pair touches; as wide as a double, to stay in the same vector lanes
+  std::vector<std::int64_t>
+      hit_;  // 1 where a pair touches; as wide as a double, to stay in the same vector lanes
   std::vector<std::int32_t> touching_;
 
   void find_touching(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts);

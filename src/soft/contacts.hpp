@@ -6,7 +6,8 @@
 
 namespace chute::soft {
 
-/// Everything about the contacts of one instant, one array per field, ordered as the pair list (so by i, then j).
+/// Everything about the contacts of one instant, one array per field, ordered as the pair list (so by i, then
+/// j).
 template <int D>
 struct Contacts {
   std::size_t count = 0;

@@ -11,7 +11,8 @@
 /// Many random impacts of two spheres at once: pairs far apart from each other in one engine.
 namespace chute::test {
 
-/// What a pair has: kinetic energy in its centre-of-mass system, momentum, angular momentum about the first contact.
+/// What a pair has: kinetic energy in its centre-of-mass system, momentum, angular momentum about the first
+/// contact.
 struct PairTotals {
   double energy = 0;
 };
@@ -21,9 +22,10 @@ class ManyImpacts {
  public:
   explicit ManyImpacts(std::uint64_t seed) : engine_(seed) {}
 
-  /// Largest ratio of a pair's energy after its impact to that before, over `count` impacts with random sizes, masses,
-  /// spins and obliqueness, from head-on to tan ϑ = 1000; in every fourth the second grain is fixed. The stiffness of
-  /// `law` should suit masses and speeds of about 1. `steps`: per shortest contact time.
+  /// Largest ratio of a pair's energy after its impact to that before, over `count` impacts with random
+  /// sizes, masses, spins and obliqueness, from head-on to tan ϑ = 1000; in every fourth the second grain is
+  /// fixed. The stiffness of `law` should suit masses and speeds of about 1. `steps`: per shortest contact
+  /// time.
   double worst_gain(const laws::Contact& law, std::size_t count, double steps) {
     constexpr std::size_t batch = 2000;
     double worst = 0;
@@ -67,7 +69,8 @@ class ManyImpacts {
       const double turning = uniform(0, 1) < 0.5 ? 0 : 2 * speed;
       for (int c = 0; c < turns<D>; ++c)
         p.w_i[c] = turning * normal_(engine_), p.w_j[c] = p.fixed ? 0 : turning * normal_(engine_);
-      const double t_n = laws::normal_impact(law, speed, {p.reduced(), p.R_i * p.R_j / (p.R_i + p.R_j)}).contact_time;
+      const double t_n =
+          laws::normal_impact(law, speed, {p.reduced(), p.R_i * p.R_j / (p.R_i + p.R_j)}).contact_time;
       shortest = std::min(shortest, t_n);
     }
     soft::SoftSetup<D> setup;
@@ -81,7 +84,8 @@ class ManyImpacts {
       r[0] = 30.0 * static_cast<double>(k % 50), r[1] = 30.0 * static_cast<double>(k / 50);
       return r;
     };
-    const auto put = [&](const Vec<D>& r, double R, double m, const Vec<D>& v, const Vec<turns<D>>& w, bool moves) {
+    const auto put = [&](const Vec<D>& r, double R, double m, const Vec<D>& v, const Vec<turns<D>>& w,
+                         bool moves) {
       grains.add(r, R, m, 0.4 * m * R * R, moves);
       for (int c = 0; c < D; ++c) grains.velocity[c].back() = v[c];
       for (int c = 0; c < turns<D>; ++c) grains.spin[c].back() = w[c];
@@ -112,8 +116,7 @@ class ManyImpacts {
       const auto& p = all[k];
       Vec<turns<D>> a, b;
       for (int c = 0; c < turns<D>; ++c) a[c] = g.spin[c][k], b[c] = g.spin[c][second[k]];
-      const double ratio =
-          energy(p, g.speed(k) - g.speed(second[k]), a, b) / energy(p, p.v, p.w_i, p.w_j);
+      const double ratio = energy(p, g.speed(k) - g.speed(second[k]), a, b) / energy(p, p.v, p.w_i, p.w_j);
       worst = std::max(worst, ratio);
     }
     return worst;

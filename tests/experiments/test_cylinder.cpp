@@ -8,7 +8,7 @@ using namespace chute::experiments;
 TEST_CASE("(3.26) to (3.31) solve the equations of motion and respect Coulomb's law") {
   for (const double push : {0.05, 0.2, 0.4, 0.7, 0.8, 2.0}) {
     const auto s = steady_cylinder(push, 0.5, 0.25);
-    CHECK(push - s.plane_force == Approx(s.acceleration));                      // m = 1
+    CHECK(push - s.plane_force == Approx(s.acceleration));                            // m = 1
     CHECK((s.plane_force - s.block_force) / 0.5 == Approx(s.spin_up).margin(1e-12));  // I = 1/2
     CHECK(s.block_force <= Approx(0.5 * push));
     CHECK(s.plane_force <= Approx(0.25 * (1 + s.block_force)));
@@ -41,9 +41,9 @@ TEST_CASE("Between the critical forces both contacts slip") {
 }
 
 TEST_CASE("The uncapped spring lets go of the wrong force only after the way back") {
-  // It is stretched by v²/2a of the first push and the slip until rolling; the time to unwind follows by hand:
-  // slip 0.02·0.4667 = 0.00933 at the change, decelerating by 0.425, so it turns at t = 0.02 + 0.02196 and has come
-  // back over ζ = 9.33e-5 + 1.025e-4 after another √(2ζ/0.425) = 0.0304.
+  // It is stretched by v²/2a of the first push and the slip until rolling; the time to unwind follows by
+  // hand: slip 0.02·0.4667 = 0.00933 at the change, decelerating by 0.425, so it turns at t = 0.02 + 0.02196
+  // and has come back over ζ = 9.33e-5 + 1.025e-4 after another √(2ζ/0.425) = 0.0304.
   PushedCylinder set_up;
   set_up.block = laws::CundallStrack{{2e7, 0, 0, 0}, {0.5, false}};
   set_up.plane = laws::CundallStrack{{2e7, 0, 0, 0}, {0.25, false}};

@@ -20,7 +20,8 @@ TEST_CASE("Figures do not depend on how many threads compute them") {
   }
 }
 
-TEST_CASE("fig-1-06 sticks along -beta up to psi_0, then slides along a slope of 1 and crosses zero near 1.39") {
+TEST_CASE(
+    "fig-1-06 sticks along -beta up to psi_0, then slides along a slope of 1 and crosses zero near 1.39") {
   const Rows rows("fig-1-06");
   const auto& walton = rows("walton");
   const double psi_0 = 3.5 * 0.21 * 1.89 / 1.39;
@@ -41,7 +42,8 @@ TEST_CASE("fig-2-02 rises with v, turns near v_bf and at a tenth of it, then fal
   for (const auto* curve : {&fast, &slow}) {
     const double v_bf = failure.x[static_cast<std::size_t>(which++)];
     CHECK(curve->at(0.2) / curve->at(0.1) == Approx(2).epsilon(0.03));
-    const auto top = static_cast<std::size_t>(std::max_element(curve->y.begin(), curve->y.end()) - curve->y.begin());
+    const auto top =
+        static_cast<std::size_t>(std::max_element(curve->y.begin(), curve->y.end()) - curve->y.begin());
     WARN("largest braking at " << curve->x[top] << " m/s; v_bf " << v_bf << " m/s");
     CHECK(curve->x[top] > 0.6 * v_bf);
     CHECK(curve->x[top] < 1.5 * v_bf);

@@ -13,8 +13,9 @@ double slope(const Points& p, double low, double high) {
 
 TEST_CASE("fig-3-01 goes as v^0, v^(-1/5), v^(1/5) in the elastic limit") {
   const Rows rows("fig-3-01");
-  WARN("slopes of 1 - e_n: " << slope(rows("spring-dashpot"), 1, 10) << ", " << slope(rows("hertz-linear-damping"), 50, 99)
-                             << ", " << slope(rows("hertz-kuwabara-kono"), 0.0101, 0.02));
+  WARN("slopes of 1 - e_n: " << slope(rows("spring-dashpot"), 1, 10) << ", "
+                             << slope(rows("hertz-linear-damping"), 50, 99) << ", "
+                             << slope(rows("hertz-kuwabara-kono"), 0.0101, 0.02));
   CHECK(slope(rows("spring-dashpot"), 1, 10) == Approx(0).margin(1e-3));
   CHECK(slope(rows("hertz-linear-damping"), 50, 99) == Approx(-0.2).margin(0.01));
   CHECK(slope(rows("hertz-kuwabara-kono"), 0.0101, 0.02) == Approx(0.2).margin(0.015));
@@ -73,8 +74,12 @@ TEST_CASE("fig-3-04 shows what each tangential law can do") {
     CHECK(rows("gamma_s=20", "c").at(psi) == Approx(rows("mu=0.25", "a").at(psi)).margin(0.02));
   CHECK(rows("gamma_s=1", "c").at(3) > rows("gamma_s=1", "b").at(3));
   // d, e: negative for small ψ_i, until about 1.6
-  for (const auto& [panel, series] : {std::pair{"d", "k_s/k_n=1"}, {"d", "k_s/k_n=2/7"}, {"d", "k_s/k_n=1/5"},
-                                      {"e", "k_s/k_n=1"}, {"e", "k_s/k_n=2/3"}, {"e", "k_s/k_n=1/3"}}) {
+  for (const auto& [panel, series] : {std::pair{"d", "k_s/k_n=1"},
+                                      {"d", "k_s/k_n=2/7"},
+                                      {"d", "k_s/k_n=1/5"},
+                                      {"e", "k_s/k_n=1"},
+                                      {"e", "k_s/k_n=2/3"},
+                                      {"e", "k_s/k_n=1/3"}}) {
     WARN(panel << " " << series << ": negative until psi_i = " << rows(series, panel).zero());
     CHECK(rows(series, panel).zero() == Approx(1.62).margin(0.05));
     CHECK(rows(series, panel).at(1) < -0.3);
@@ -104,11 +109,13 @@ TEST_CASE("fig-3-06 has curves that differ, and fig-3-07 nearly the same ones wh
   const Rows linear("fig-3-06"), scaled("fig-3-07");
   const auto spread = [](const Rows& rows, double psi) {
     double low = INFINITY, high = -INFINITY;
-    for (const char* v : {"v=0.1", "v=1", "v=15"}) low = std::min(low, rows(v).at(psi)), high = std::max(high, rows(v).at(psi));
+    for (const char* v : {"v=0.1", "v=1", "v=15"})
+      low = std::min(low, rows(v).at(psi)), high = std::max(high, rows(v).at(psi));
     return high - low;
   };
   for (const double psi : {0.2, 0.4, 0.6, 0.8, 1.2, 2.0, 8.0})
-    WARN("psi_i " << psi << ": spread " << spread(linear, psi) << " in 3.6, " << spread(scaled, psi) << " in 3.7");
+    WARN("psi_i " << psi << ": spread " << spread(linear, psi) << " in 3.6, " << spread(scaled, psi)
+                  << " in 3.7");
   CHECK(spread(linear, 0.8) > 0.5);
   for (const double psi : {0.2, 0.4, 0.6, 0.8}) CHECK(spread(scaled, psi) < 0.15);
   CHECK(spread(scaled, 0.8) < 0.2 * spread(linear, 0.8));
@@ -124,7 +131,8 @@ TEST_CASE("fig-3-08 depends on the velocity at small angles") {
   for (const char* v : {"v=0.1", "v=1", "v=15"}) CHECK(rows(v).y.back() > 0.98);
 }
 
-TEST_CASE("fig-3-10 shows the viscous law and the capped spring find the new force, the uncapped spring not") {
+TEST_CASE(
+    "fig-3-10 shows the viscous law and the capped spring find the new force, the uncapped spring not") {
   const Rows rows("fig-3-10");
   const double end = rows("F_s^p", "a").x.back();
   CHECK(rows("F_s^p", "a").at(0.019) == Approx(1.0 / 3).epsilon(1e-4));

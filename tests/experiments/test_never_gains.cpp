@@ -35,7 +35,9 @@ const std::vector<Named> generous = {
 
 laws::Normal normal(bool hertz, bool elastic) {
   const auto spring = laws::Hertz::from_stiffness(1e7);
-  if (hertz) return elastic ? laws::Normal(spring) : laws::HertzKuwabaraKono::from_damping(spring, 1e4, laws::MassScaling::none);
+  if (hertz)
+    return elastic ? laws::Normal(spring)
+                   : laws::HertzKuwabaraKono::from_damping(spring, 1e4, laws::MassScaling::none);
   return laws::SpringDashpot::from_restitution(k, elastic ? 1 : 0.8);
 }
 
@@ -51,7 +53,8 @@ TEST_CASE("10^5 random impacts with a dissipative normal force never gain energy
       CHECK(flat < 1 + 1e-6);
       CHECK(deep < 1 + 1e-6);
     }
-  const laws::Contact hysteretic{laws::WaltonBraun::from_restitution(k, 0.8), laws::CundallStrack{k_s, {0.5, true}}};
+  const laws::Contact hysteretic{laws::WaltonBraun::from_restitution(k, 0.8),
+                                 laws::CundallStrack{k_s, {0.5, true}}};
   CHECK(ManyImpacts<2>(1).worst_gain(hysteretic, 20000, 60) < 1 + 1e-6);
 }
 
@@ -66,7 +69,8 @@ TEST_CASE("With an elastic normal force, nothing is gained but the error of the 
   }
 }
 
-TEST_CASE("Tangential springs without the cap gain energy where the normal force is elastic; the laws say so") {
+TEST_CASE(
+    "Tangential springs without the cap gain energy where the normal force is elastic; the laws say so") {
   for (const auto& [name, law, hertz] : generous) {
     const double gain = ManyImpacts<2>(1).worst_gain({normal(hertz, true), law}, 20000, 400) - 1;
     WARN(name << ": gains up to " << gain << " of the energy before");

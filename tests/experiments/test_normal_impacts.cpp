@@ -22,17 +22,16 @@ struct Case {
 
 std::vector<Case> cases() {
   using laws::MassScaling;
-  return {
-      {"(1.18)", hertz, [](double xi, double) { return K * std::pow(xi, 1.5); }},
-      {"(3.1)", Acetate::spring_dashpot(), [](double xi, double u) { return k * xi + 2.06 * u; }},
-      {"(3.1) clipped", Acetate::spring_dashpot(), [](double xi, double u) { return std::max(0.0, k * xi + 2.06 * u); },
-       false},
-      {"(3.5)", laws::HertzLinearDamping(hertz, 0.35, MassScaling::none),
-       [](double xi, double u) { return K * std::pow(xi, 1.5) + 0.35 * u; }},
-      {"(3.5) clipped", laws::HertzLinearDamping(hertz, 0.35, MassScaling::none),
-       [](double xi, double u) { return std::max(0.0, K * std::pow(xi, 1.5) + 0.35 * u); }, false},
-      {"(3.6)", laws::HertzKuwabaraKono::from_damping(hertz, 190, MassScaling::none),
-       [](double xi, double u) { return K * std::pow(xi, 1.5) + 190 * std::sqrt(xi) * u; }}};
+  return {{"(1.18)", hertz, [](double xi, double) { return K * std::pow(xi, 1.5); }},
+          {"(3.1)", Acetate::spring_dashpot(), [](double xi, double u) { return k * xi + 2.06 * u; }},
+          {"(3.1) clipped", Acetate::spring_dashpot(),
+           [](double xi, double u) { return std::max(0.0, k * xi + 2.06 * u); }, false},
+          {"(3.5)", laws::HertzLinearDamping(hertz, 0.35, MassScaling::none),
+           [](double xi, double u) { return K * std::pow(xi, 1.5) + 0.35 * u; }},
+          {"(3.5) clipped", laws::HertzLinearDamping(hertz, 0.35, MassScaling::none),
+           [](double xi, double u) { return std::max(0.0, K * std::pow(xi, 1.5) + 0.35 * u); }, false},
+          {"(3.6)", laws::HertzKuwabaraKono::from_damping(hertz, 190, MassScaling::none),
+           [](double xi, double u) { return K * std::pow(xi, 1.5) + 190 * std::sqrt(xi) * u; }}};
 }
 
 }  // namespace
@@ -68,7 +67,8 @@ TEST_CASE("The engine reproduces (3.2), (3.3), (3.8), (1.26) and (1.28)") {
   }
   WARN("(3.8): largest deviation of e_n from 0.01 to 100 m/s " << worst);
   CHECK(worst < 1e-4);
-  CHECK(restitution(laws::WaltonBraun::from_stiffnesses(k, 4 * k), 1).restitution() == Approx(0.5).epsilon(1e-4));
+  CHECK(restitution(laws::WaltonBraun::from_stiffnesses(k, 4 * k), 1).restitution() ==
+        Approx(0.5).epsilon(1e-4));
   for (const double v : {0.1, 1.0, 10.0}) {
     auto impact = Acetate::meet({hertz, laws::Frictionless{}}, v, 0, 5000);
     impact.trace = true;
@@ -76,7 +76,8 @@ TEST_CASE("The engine reproduces (3.2), (3.3), (3.8), (1.26) and (1.28)") {
     double deepest = 0;
     for (const auto& p : outcome.trace) deepest = std::max(deepest, p.overlap);
     CHECK(deepest == Approx(std::pow(1.25 * m_eff / K, 0.4) * std::pow(v, 0.8)).epsilon(1e-5));
-    CHECK(outcome.contact_time == Approx(3.21797 * std::pow(m_eff / K, 0.4) * std::pow(v, -0.2)).epsilon(5e-4));
+    CHECK(outcome.contact_time ==
+          Approx(3.21797 * std::pow(m_eff / K, 0.4) * std::pow(v, -0.2)).epsilon(5e-4));
     CHECK(outcome.restitution() == Approx(1).epsilon(1e-6));
   }
 }
@@ -90,7 +91,8 @@ TEST_CASE("A material's stiffness is that of each pair") {
     impact.j = {1.2, 3, {{0, 0}}, {}, fixed};
     impact.normal = {{1, 0}};
     impact.trace = true;
-    const double m = fixed ? 1 : 0.75, R = 0.4 * 1.2 / 1.6, stiffness = 4.0 / 3 * std::sqrt(R) * 1e8 / (2 * (1 - 0.0625));
+    const double m = fixed ? 1 : 0.75, R = 0.4 * 1.2 / 1.6,
+                 stiffness = 4.0 / 3 * std::sqrt(R) * 1e8 / (2 * (1 - 0.0625));
     double deepest = 0;
     for (const auto& p : collide(impact).trace) deepest = std::max(deepest, p.overlap);
     CHECK(deepest == Approx(std::pow(1.25 * m / stiffness, 0.4)).epsilon(1e-4));
@@ -98,9 +100,10 @@ TEST_CASE("A material's stiffness is that of each pair") {
 }
 
 TEST_CASE("What a normal impact loses is what the account says, with memory or without") {
-  for (const laws::Normal& law : {laws::Normal(Acetate::spring_dashpot()),
-                                  laws::Normal(laws::HertzKuwabaraKono::from_damping(hertz, 190, laws::MassScaling::none)),
-                                  laws::Normal(laws::WaltonBraun::from_hardening(k, 2e5))})
+  for (const laws::Normal& law :
+       {laws::Normal(Acetate::spring_dashpot()),
+        laws::Normal(laws::HertzKuwabaraKono::from_damping(hertz, 190, laws::MassScaling::none)),
+        laws::Normal(laws::WaltonBraun::from_hardening(k, 2e5))})
     for (const bool attraction : {true, false}) {
       const auto outcome = collide(Acetate::meet({law, laws::Frictionless{}, attraction}, 2, 0, 5000));
       CHECK(outcome.normal_loss == Approx(outcome.energy_before - outcome.energy_after).epsilon(2e-3));

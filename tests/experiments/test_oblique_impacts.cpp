@@ -12,9 +12,11 @@ namespace {
 
 constexpr double m_eff = Acetate::reduced_mass, k = Acetate::stiffness, damping = 2.06, mu = 0.25;
 
-/// ψ_f of two equal solid spheres in the limit that the line of centres does not turn: ξ, ξ', v_s and ζ as an ordinary
-/// differential equation, m_eff ξ'' = −F_n, 2/7 m_eff v_s' = F_s, ζ' = v_s, integrated by Odeint until ξ = 0.
-double truth(double psi, double v_n, const std::function<double(double v_s, double zeta, double xi, double F_n)>& shear,
+/// ψ_f of two equal solid spheres in the limit that the line of centres does not turn: ξ, ξ', v_s and ζ as an
+/// ordinary differential equation, m_eff ξ'' = −F_n, 2/7 m_eff v_s' = F_s, ζ' = v_s, integrated by Odeint
+/// until ξ = 0.
+double truth(double psi, double v_n,
+             const std::function<double(double v_s, double zeta, double xi, double F_n)>& shear,
              const std::function<double(double, double)>& normal, double time_scale) {
   namespace odeint = boost::numeric::odeint;
   using State = std::array<double, 4>;  // in units of v_n and v_n · time scale
@@ -59,10 +61,12 @@ TEST_CASE("psi_f of the tangential laws against an independent integration") {
       worst = std::max(worst, std::abs(found - expected));
     }
   };
-  compare("(3.11)", laws::Viscous{3, laws::MassScaling::none}, [](double v, double, double, double) { return -3 * v; });
-  compare("(3.12)", laws::RegularisedCoulomb{3, mu, laws::MassScaling::none}, [](double v, double, double, double F) {
-    return -std::min(std::abs(3 * v), mu * std::abs(F)) * sign(v);
-  });
+  compare("(3.11)", laws::Viscous{3, laws::MassScaling::none},
+          [](double v, double, double, double) { return -3 * v; });
+  compare("(3.12)", laws::RegularisedCoulomb{3, mu, laws::MassScaling::none},
+          [](double v, double, double, double F) {
+            return -std::min(std::abs(3 * v), mu * std::abs(F)) * sign(v);
+          });
   for (const double ratio : {1.0, 2.0 / 7, 0.2})
     compare("(3.13)", laws::CundallStrack{{ratio * k, 0, 0, 0}, {mu, false}},
             [=](double, double zeta, double, double F) {
@@ -73,7 +77,8 @@ TEST_CASE("psi_f of the tangential laws against an independent integration") {
 
 TEST_CASE("psi_f of (3.22) with (3.6) against an independent integration") {
   const double K = Acetate::hertz_stiffness, v = 1e-4, scale = std::pow(m_eff / K, 0.4) * std::pow(v, -0.2);
-  const auto kono = laws::HertzKuwabaraKono::from_damping(laws::Hertz::from_stiffness(K), 190, laws::MassScaling::none);
+  const auto kono =
+      laws::HertzKuwabaraKono::from_damping(laws::Hertz::from_stiffness(K), 190, laws::MassScaling::none);
   for (const double ratio : {2.0 / 3, 0.2})
     for (const double psi : {0.2, 0.8, 1.5, 4.0}) {
       const double expected = truth(
@@ -89,12 +94,16 @@ TEST_CASE("psi_f of (3.22) with (3.6) against an independent integration") {
 }
 
 TEST_CASE("(2.28) holds for (3.10) while it slides; it never turns the slip round") {
-  const double e_n = std::exp(-damping / (2 * m_eff) * std::numbers::pi / std::sqrt(k / m_eff - std::pow(damping / (2 * m_eff), 2)));
+  const double e_n = std::exp(-damping / (2 * m_eff) * std::numbers::pi /
+                              std::sqrt(k / m_eff - std::pow(damping / (2 * m_eff), 2)));
   for (const double friction : {0.15, 0.25, 0.35})
     for (const double psi : {0.2, 1.0, 3.0, 8.0}) {
-      // ∫|F_n| dt is more than m_eff (1 + e_n) v_n: F_n attracts at the end. Over the two parts with their signs:
-      const double x = damping / (2 * std::sqrt(k * m_eff)), w = std::sqrt(1 - x * x), phase = std::atan2(2 * x * w, 2 * x * x - 1);
-      const double at_zero = std::exp(-x / w * phase) * (x / w * std::sin(phase) - std::cos(phase));  // −v_n where F_n = 0
+      // ∫|F_n| dt is more than m_eff (1 + e_n) v_n: F_n attracts at the end. Over the two parts with their
+      // signs:
+      const double x = damping / (2 * std::sqrt(k * m_eff)), w = std::sqrt(1 - x * x),
+                   phase = std::atan2(2 * x * w, 2 * x * x - 1);
+      const double at_zero =
+          std::exp(-x / w * phase) * (x / w * std::sin(phase) - std::cos(phase));  // −v_n where F_n = 0
       const double impulse = (1 + at_zero) + (at_zero - e_n);
       const double expected = std::max(0.0, psi - 3.5 * friction * impulse);
       const double found = simulated(psi, {Acetate::spring_dashpot(), laws::Coulomb{friction}}, 1e-3);
@@ -108,7 +117,7 @@ namespace {
 template <int D>
 struct Turned {
   BinaryImpact<D> impact;
-  std::function<Vec<D>(const Vec<D>&)> back;                  // vectors of the outcome to those of the original
+  std::function<Vec<D>(const Vec<D>&)> back;  // vectors of the outcome to those of the original
   std::function<Vec<turns<D>>(const Vec<turns<D>>&)> spin_back;
   Vec<D> boost{};
   bool swapped = false;
@@ -235,7 +244,8 @@ const std::vector<laws::Contact> all_laws = {
     {spring, laws::WaltonBraunMindlin{k_s, 0.3}},
     {hertz_law, laws::MindlinSpring{k_hertz_s, {0.3, true}}},
     {laws::WaltonBraun::from_hardening(1e5, 100), laws::CundallStrack{k_s, {0.3, true}}},
-    {laws::HertzLinearDamping(laws::Hertz::from_stiffness(1e6), 5, laws::MassScaling::none), laws::SawTooth{0.3, 0.01}, false},
+    {laws::HertzLinearDamping(laws::Hertz::from_stiffness(1e6), 5, laws::MassScaling::none),
+     laws::SawTooth{0.3, 0.01}, false},
 };
 
 }  // namespace

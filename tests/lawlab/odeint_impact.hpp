@@ -9,8 +9,8 @@
 #include <boost/numeric/odeint.hpp>
 #pragma GCC diagnostic pop
 
-/// The truth for head-on impacts, independent of the code under test: m ξ'' = −F(ξ, ξ'), integrated by Boost.Odeint's
-/// adaptive Runge-Kutta-Fehlberg 7(8) method to 1e-12; the end by bisection of the last step.
+/// The truth for head-on impacts, independent of the code under test: m ξ'' = −F(ξ, ξ'), integrated by
+/// Boost.Odeint's adaptive Runge-Kutta-Fehlberg 7(8) method to 1e-12; the end by bisection of the last step.
 namespace chute::test {
 
 struct Rebound {

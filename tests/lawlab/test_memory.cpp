@@ -12,7 +12,8 @@ namespace {
 constexpr double k_n = 1e5;
 const laws::PairCoefficient k_s{2.0 / 7 * k_n, 0, 0, 0}, k_hertz_s{2.0 / 3 * 1e6, 0, 0, 0};
 const laws::Normal spring = laws::SpringDashpot::from_restitution(k_n, 0.9);
-const laws::Normal hertz = laws::HertzKuwabaraKono::from_damping(laws::Hertz::from_stiffness(1e6), 200, laws::MassScaling::none);
+const laws::Normal hertz =
+    laws::HertzKuwabaraKono::from_damping(laws::Hertz::from_stiffness(1e6), 200, laws::MassScaling::none);
 
 struct Named {
   const char* name;
@@ -27,7 +28,8 @@ const std::vector<Named> laws_with_memory = {
     {"walton-braun", {laws::WaltonBraun::from_restitution(k_n, 0.8), laws::CundallStrack{k_s, {0.5, true}}}},
 };
 
-/// A dense gas of unequal grains in a periodic box: contacts begin and end all the time, grains cross the borders.
+/// A dense gas of unequal grains in a periodic box: contacts begin and end all the time, grains cross the
+/// borders.
 template <int D>
 Grains<D> gas() {
   boost::random::mt19937_64 engine(3);
@@ -65,8 +67,8 @@ bool same(const Grains<D>& a, const Grains<D>& b) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("Same bytes whatever the lists, the borders and the processor do", "",
-                       ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("Same bytes whatever the lists, the borders and the processor do", "", ((int D), D), 2,
+                       3) {
   for (const auto& [name, law] : laws_with_memory) {
     INFO(name);
     soft::SoftEngine<D> usual(gas<D>(), box<D>(law));
@@ -110,8 +112,8 @@ TEMPLATE_TEST_CASE_SIG("A run that was interrupted in the middle of contacts goe
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("What was there is what is stored and what was dissipated, with every law", "", ((int D), D),
-                       2, 3) {
+TEMPLATE_TEST_CASE_SIG("What was there is what is stored and what was dissipated, with every law", "",
+                       ((int D), D), 2, 3) {
   for (const auto& [name, law] : laws_with_memory)
     for (const auto scheme : {soft::Scheme::gear5, soft::Scheme::verlet}) {
       auto setup = box<D>(law, scheme);
@@ -123,22 +125,26 @@ TEMPLATE_TEST_CASE_SIG("What was there is what is stored and what was dissipated
         worst = std::max(worst, std::abs(engine.energy().residual()));
       }
       const auto e = engine.energy();
-      WARN(D << "D " << name << (scheme == soft::Scheme::gear5 ? " gear5" : " verlet") << ": of " << e.start << " lost "
-             << e.normal_loss << " normal, " << e.shear_loss << " tangential; residual at most " << worst);
+      WARN(D << "D " << name << (scheme == soft::Scheme::gear5 ? " gear5" : " verlet") << ": of " << e.start
+             << " lost " << e.normal_loss << " normal, " << e.shear_loss << " tangential; residual at most "
+             << worst);
       CHECK(worst < 2e-3 * e.start);
       CHECK(e.normal_loss + e.shear_loss > 0.2 * e.start);
     }
 }
 
 TEST_CASE("A pair that turns as one body keeps its tangential spring, about every axis") {
-  // Two touching grains, moved by hand: j is pushed aside, then both turn rigidly about an axis through the contact.
+  // Two touching grains, moved by hand: j is pushed aside, then both turn rigidly about an axis through the
+  // contact.
   const double R = 0.5, xi = 1e-7, push = 1e-3, dt = 1e-3;
-  const laws::Contact law{laws::SpringDashpot::from_restitution(1e9, 1), laws::CundallStrack{{1e5, 0, 0, 0}, {1e9, true}}};
+  const laws::Contact law{laws::SpringDashpot::from_restitution(1e9, 1),
+                          laws::CundallStrack{{1e5, 0, 0, 0}, {1e9, true}}};
   soft::ContactStages<3> stages(Domain<3>{}, law);
   soft::Contacts<3> contacts;
   search::PairList pairs;
   pairs.add(0, 1, 2 * R);
-  for (const Vec<3>& axis : {Vec<3>{{1, 0, 0}}, Vec<3>{{0, 1, 0}}, Vec<3>{{0, 0, 1}}, Vec<3>{{0.48, 0.6, 0.64}}}) {
+  for (const Vec<3>& axis :
+       {Vec<3>{{1, 0, 0}}, Vec<3>{{0, 1, 0}}, Vec<3>{{0, 0, 1}}, Vec<3>{{0.48, 0.6, 0.64}}}) {
     stages.memory() = soft::ContactMemory<3>(law, soft::SlipRule::trapezoid);
     Grains<3> grains;
     grains.add({{-R + xi / 2, 0, 0}}, R, 1, 0.1, true);
@@ -152,7 +158,8 @@ TEST_CASE("A pair that turns as one body keeps its tangential spring, about ever
     REQUIRE(before[1] < -50);
 
     const auto rotate = [&](const Vec<3>& a, double angle) {
-      return std::cos(angle) * a + std::sin(angle) * cross(axis, a) + ((1 - std::cos(angle)) * dot(axis, a)) * axis;
+      return std::cos(angle) * a + std::sin(angle) * cross(axis, a) +
+             ((1 - std::cos(angle)) * dot(axis, a)) * axis;
     };
     const double omega = 2;
     const int steps = 3000;  // almost one full turn
@@ -177,7 +184,8 @@ TEST_CASE("A pair that turns as one body keeps its tangential spring, about ever
 }
 
 TEST_CASE("A contact forgets; every bounce of a hysteretic ball has the same restitution") {
-  // Falls on a fixed grain; between bounces it flies freely, so speeds before successive impacts have the ratio e_n.
+  // Falls on a fixed grain; between bounces it flies freely, so speeds before successive impacts have the
+  // ratio e_n.
   soft::SoftSetup<2> setup;
   setup.laws = {laws::WaltonBraun::from_restitution(1e6, 0.8), laws::Frictionless{}};
   setup.gravity = {{0, -1}};
@@ -196,7 +204,8 @@ TEST_CASE("A contact forgets; every bounce of a hysteretic ball has the same res
 }
 
 TEST_CASE("Laws without a memory carry none") {
-  soft::ContactStages<2> stages(Domain<2>{}, {spring, laws::RegularisedCoulomb{10, 0.5, laws::MassScaling::none}});
+  soft::ContactStages<2> stages(Domain<2>{},
+                                {spring, laws::RegularisedCoulomb{10, 0.5, laws::MassScaling::none}});
   CHECK(!stages.memory().needed());
   soft::ContactStages<2> with(Domain<2>{}, {spring, laws::CundallStrack{k_s, {0.5, true}}});
   CHECK(with.memory().needed());

@@ -46,7 +46,8 @@ TEST_CASE("(1.26), (1.28): Hertz's deepest overlap and contact time, the latter 
     CHECK(impact.deepest == Approx(truth.deepest).epsilon(1e-4));  // the truth's is a sampled maximum
     CHECK(impact.restitution == 1);
     // the printed number, to the three digits that it has, and the exact one
-    CHECK(impact.contact_time * std::pow(k_hertz / m_eff, 0.4) * std::pow(v, 0.2) == Approx(3.218).epsilon(1e-4));
+    CHECK(impact.contact_time * std::pow(k_hertz / m_eff, 0.4) * std::pow(v, 0.2) ==
+          Approx(3.218).epsilon(1e-4));
   }
   // (1.27) by quadrature: u = sin² substitution removes the end point's singularity
   double sum = 0;
@@ -61,7 +62,8 @@ TEST_CASE("(1.26), (1.28): Hertz's deepest overlap and contact time, the latter 
 
 TEST_CASE("Every normal law's impact against an independent integration") {
   const double v = GENERATE(0.02, 1.0, 40.0);
-  const double hertz_time = std::pow(m_eff / k_hertz, 0.4) * std::pow(v, -0.2), linear_time = std::sqrt(m_eff / k_linear);
+  const double hertz_time = std::pow(m_eff / k_hertz, 0.4) * std::pow(v, -0.2),
+               linear_time = std::sqrt(m_eff / k_linear);
   const auto compare = [&](const char* name, const NormalImpact& impact, const chute::test::Rebound& truth) {
     INFO(name << " at " << v << " m/s: e_n " << impact.restitution << ", truth " << truth.restitution);
     CHECK(std::abs(impact.restitution - truth.restitution) < 1e-6);  // the truth's last step ends at a kink
@@ -71,10 +73,12 @@ TEST_CASE("Every normal law's impact against an independent integration") {
   compare("(3.1)", SpringDashpot::from_damping(k_linear, 2.06, MassScaling::none).impact(v, pair),
           odeint_impact([](double xi, double u) { return k_linear * xi + 2.06 * u; }, m_eff, v, linear_time));
   compare("(3.5)", linear(0.35).impact(v, pair),
-          odeint_impact([](double xi, double u) { return k_hertz * std::pow(xi, 1.5) + 0.35 * u; }, m_eff, v, hertz_time));
-  compare("(3.6)", kono(190).impact(v, pair),
-          odeint_impact([](double xi, double u) { return k_hertz * std::pow(xi, 1.5) + 190 * std::sqrt(xi) * u; }, m_eff,
-                        v, hertz_time));
+          odeint_impact([](double xi, double u) { return k_hertz * std::pow(xi, 1.5) + 0.35 * u; }, m_eff, v,
+                        hertz_time));
+  compare(
+      "(3.6)", kono(190).impact(v, pair),
+      odeint_impact([](double xi, double u) { return k_hertz * std::pow(xi, 1.5) + 190 * std::sqrt(xi) * u; },
+                    m_eff, v, hertz_time));
   double most = 0;  // (3.7): the truth carries the largest overlap along
   const double s = 2e5;
   compare("(3.7)", WaltonBraun::from_hardening(k_linear, s).impact(v, pair),
@@ -109,7 +113,8 @@ TEST_CASE("1 − e_n goes as v^0, v^(−1/5), v^(1/5) in the elastic limit") {
   CHECK(exponent(spring, 1) == Approx(0).margin(1e-12));
   double last_linear = 1, last_kono = 1;
   for (const double decades : {2, 5, 8, 11}) {
-    const double p = exponent(linear(0.35), std::pow(10, decades)), q = exponent(kono(190), std::pow(10, -decades));
+    const double p = exponent(linear(0.35), std::pow(10, decades)),
+                 q = exponent(kono(190), std::pow(10, -decades));
     WARN("10^±" << decades << " m/s: exponents " << p << " (3.5), " << q << " (3.6)");
     CHECK(std::abs(p + 0.2) < last_linear);
     CHECK(std::abs(q - 0.2) < last_kono);
@@ -123,8 +128,9 @@ TEST_CASE("Clipping the attraction: the closed form, and the damping that gives 
   for (const double e_n : {0.95, 0.6, 0.2}) {
     const auto law = SpringDashpot::from_restitution(k_linear, e_n, false);
     const double gamma = law.damping(pair);
-    const auto truth = odeint_impact(
-        [&](double xi, double u) { return std::max(0.0, k_linear * xi + gamma * u); }, m_eff, 1, std::sqrt(m_eff / k_linear));
+    const auto truth =
+        odeint_impact([&](double xi, double u) { return std::max(0.0, k_linear * xi + gamma * u); }, m_eff, 1,
+                      std::sqrt(m_eff / k_linear));
     CHECK(std::abs(truth.restitution - e_n) < 1e-6);
     const auto impact = normal_impact({law, {}, false}, 1, pair);
     CHECK(std::abs(impact.restitution - e_n) < 1e-7);
@@ -136,10 +142,11 @@ TEST_CASE("Clipping the attraction: the closed form, and the damping that gives 
 
 TEST_CASE("Damping that gives an asked restitution at 1 m/s: Fig. 3.2 b") {
   for (const double e_n : {0.95, 0.6, 0.2}) {
-    const double gamma = damping_for([](double g) { return linear(g).impact(1, pair).restitution; }, e_n, 0.1);
-    const auto truth = odeint_impact(
-        [&](double xi, double u) { return k_hertz * std::pow(xi, 1.5) + gamma * u; }, m_eff, 1,
-        std::pow(m_eff / k_hertz, 0.4));
+    const double gamma =
+        damping_for([](double g) { return linear(g).impact(1, pair).restitution; }, e_n, 0.1);
+    const auto truth =
+        odeint_impact([&](double xi, double u) { return k_hertz * std::pow(xi, 1.5) + gamma * u; }, m_eff, 1,
+                      std::pow(m_eff / k_hertz, 0.4));
     WARN("(3.5) with e_n = " << e_n << " at 1 m/s: gamma_n = " << gamma << " kg/s");
     CHECK(std::abs(truth.restitution - e_n) < 1e-6);
   }
@@ -190,7 +197,9 @@ TEST_CASE("Elastic parts: force = dE/dξ, and loaded spheres give back what they
 
 TEST_CASE("Mass conventions of 3.1.1: e_n grows with m_eff, falls, or does not depend on it") {
   const auto restitution = [](MassScaling scaling, double m) {
-    return SpringDashpot::from_damping(1e5, scaling == MassScaling::none ? 20 : 40, scaling).impact(1, m).restitution;
+    return SpringDashpot::from_damping(1e5, scaling == MassScaling::none ? 20 : 40, scaling)
+        .impact(1, m)
+        .restitution;
   };
   CHECK(restitution(MassScaling::none, 2) > restitution(MassScaling::none, 0.5));
   CHECK(restitution(MassScaling::damping, 2) < restitution(MassScaling::damping, 0.5));

@@ -36,8 +36,9 @@ laws::NormalImpact impact_of(const scene::Scene& s) {
 const std::string frictionless = "[contact.tangential]\nlaw = \"frictionless\"\n";
 std::string normal(const std::string& keys) { return "[contact.normal]\n" + keys + "\n" + frictionless; }
 std::string shear(const std::string& keys) {
-  return "[contact.normal]\nlaw = \"spring-dashpot\"\nstiffness = 1e6\nrestitution = 0.7\n[contact.tangential]\n" + keys +
-         "\n";
+  return "[contact.normal]\nlaw = \"spring-dashpot\"\nstiffness = 1e6\nrestitution = "
+         "0.7\n[contact.tangential]\n" +
+         keys + "\n";
 }
 
 std::string failure(const std::string& contact) {
@@ -63,18 +64,22 @@ TEST_CASE("Parameters as restitution and contact time, as a material, or raw") {
       CHECK(by_time.restitution == Approx(0.6).epsilon(1e-6));
       CHECK(by_time.contact_time == Approx(3e-5).epsilon(1e-6));
       if (law == "spring-dashpot") continue;
-      const auto material = asked("law = \"" + law + "\"\nyoung = 2e11\npoisson = 0.3\nrestitution = 0.9" + at);
+      const auto material =
+          asked("law = \"" + law + "\"\nyoung = 2e11\npoisson = 0.3\nrestitution = 0.9" + at);
       CHECK(material.restitution == Approx(0.9).epsilon(1e-6));
-      const auto elastic = laws::Hertz::from_material(2e11, 0.3).contact_time(2, parse(normal(
-          "law = \"hertz\"\nyoung = 2e11\npoisson = 0.3\nat_velocity = 2")).reference_pair());
+      const auto elastic = laws::Hertz::from_material(2e11, 0.3).contact_time(
+          2, parse(normal("law = \"hertz\"\nyoung = 2e11\npoisson = 0.3\nat_velocity = 2")).reference_pair());
       CHECK(material.contact_time == Approx(elastic).epsilon(0.02));
     }
   }
-  CHECK(impact_of(parse(normal("law = \"hertz\"\ncontact_time = 4e-5\nat_velocity = 3"))).contact_time == Approx(4e-5));
-  CHECK(impact_of(parse(normal("law = \"walton-braun\"\nstiffness = 1e6\nrestitution = 0.7"))).restitution == Approx(0.7));
-  CHECK(impact_of(parse(normal("law = \"walton-braun\"\nstiffness = 1e6\nunloading_stiffness = 4e6"))).restitution ==
-        Approx(0.5));
-  const auto hard = parse(normal("law = \"walton-braun\"\nstiffness = 1e6\nhardening = 1e4\nat_velocity = 1"));
+  CHECK(impact_of(parse(normal("law = \"hertz\"\ncontact_time = 4e-5\nat_velocity = 3"))).contact_time ==
+        Approx(4e-5));
+  CHECK(impact_of(parse(normal("law = \"walton-braun\"\nstiffness = 1e6\nrestitution = 0.7"))).restitution ==
+        Approx(0.7));
+  CHECK(impact_of(parse(normal("law = \"walton-braun\"\nstiffness = 1e6\nunloading_stiffness = 4e6")))
+            .restitution == Approx(0.5));
+  const auto hard =
+      parse(normal("law = \"walton-braun\"\nstiffness = 1e6\nhardening = 1e4\nat_velocity = 1"));
   CHECK(impact_of(hard).restitution ==
         Approx(std::pow(1e4 * std::sqrt(hard.reference_mass() / 1e6) + 1, -0.5)));
   const auto kono = parse(normal(
@@ -114,13 +119,15 @@ TEST_CASE("Every law can be named, runs, and its scene reads back the same") {
 }
 
 TEST_CASE("k_s/k_n follows the normal law of each pair") {
-  const auto scene = parse("[contact.normal]\nlaw = \"hertz-kuwabara-kono\"\nyoung = 1e9\npoisson = 0.3\nrestitution = 0.8\n"
-                           "at_velocity = 1\n[contact.tangential]\nlaw = \"mindlin\"\nfriction = 0.3\nstiffness_ratio = 0.8\n");
+  const auto scene = parse(
+      "[contact.normal]\nlaw = \"hertz-kuwabara-kono\"\nyoung = 1e9\npoisson = 0.3\nrestitution = 0.8\n"
+      "at_velocity = 1\n[contact.tangential]\nlaw = \"mindlin\"\nfriction = 0.3\nstiffness_ratio = 0.8\n");
   const auto laws = scene.contact.laws(scene.reference_pair());
   const laws::Pair other(1, 0.7);
   CHECK(std::get<laws::MindlinSpring>(laws.shear).stiffness(other) ==
         Approx(0.8 * std::get<laws::HertzKuwabaraKono>(laws.normal).stiffness(other)));
-  const auto linear = parse(shear("law = \"cundall-strack\"\nfriction = 0.3\nstiffness_ratio = 0.2857142857"));
+  const auto linear =
+      parse(shear("law = \"cundall-strack\"\nfriction = 0.3\nstiffness_ratio = 0.2857142857"));
   for (const auto& fact : run::facts(linear))
     if (fact.name == "t_s/t_n")  // (3.15): 1 at 2/7, but for the damping of the normal motion
       CHECK(fact.value == Approx(std::sqrt(1 / (1 + std::pow(std::log(0.7) / M_PI, 2)))).epsilon(1e-6));
@@ -128,18 +135,22 @@ TEST_CASE("k_s/k_n follows the normal law of each pair") {
 
 TEST_CASE("Wrong combinations are refused with the key that is wrong") {
   CHECK_THAT(failure(normal("law = \"hertz\"\nstiffness = 1e9")), Catch::Contains("at_velocity"));
-  CHECK_THAT(failure(normal("law = \"spring-dashpot\"\nstiffness = 1e6\ncontact_time = 1e-5\nrestitution = 0.7")),
-             Catch::Contains("either stiffness or contact_time"));
-  CHECK_THAT(failure(normal("law = \"spring-dashpot\"\nstiffness = 1e6")), Catch::Contains("restitution or damping"));
+  CHECK_THAT(
+      failure(normal("law = \"spring-dashpot\"\nstiffness = 1e6\ncontact_time = 1e-5\nrestitution = 0.7")),
+      Catch::Contains("either stiffness or contact_time"));
+  CHECK_THAT(failure(normal("law = \"spring-dashpot\"\nstiffness = 1e6")),
+             Catch::Contains("restitution or damping"));
   CHECK_THAT(failure(normal("law = \"spring-dashpot\"\nstiffness = 1e6\nrestitution = 0.7\nyoung = 1e9")),
              Catch::Contains("young"));
   CHECK_THAT(failure(normal("law = \"hertz\"\nyoung = 1e9\nat_velocity = 1")), Catch::Contains("poisson"));
   CHECK_THAT(failure(normal("law = \"walton-braun\"\nstiffness = 1e6\nunloading_stiffness = 1e5")),
              Catch::Contains("unloading_stiffness"));
-  CHECK_THAT(failure(normal("law = \"hertz-linear-damping\"\nstiffness = 1e9\ndamping = 1e6\nat_velocity = 1")),
-             Catch::Contains("never part"));
+  CHECK_THAT(
+      failure(normal("law = \"hertz-linear-damping\"\nstiffness = 1e9\ndamping = 1e6\nat_velocity = 1")),
+      Catch::Contains("never part"));
   CHECK_THAT(failure(shear("law = \"cundall-strack\"\nfriction = 0.3")), Catch::Contains("stiffness_ratio"));
-  CHECK_THAT(failure(shear("law = \"mindlin\"\nfriction = 0.3\nstiffness_ratio = 0.5")), Catch::Contains("Hertz"));
+  CHECK_THAT(failure(shear("law = \"mindlin\"\nfriction = 0.3\nstiffness_ratio = 0.5")),
+             Catch::Contains("Hertz"));
   CHECK_THAT(failure(shear("law = \"saw-tooth\"\nfriction = 0.3")), Catch::Contains("tooth"));
   CHECK_THAT(failure(shear("law = \"coulom\"\nfriction = 0.3")), Catch::Contains("coulomb"));
 }

@@ -57,7 +57,8 @@ TEST_CASE("(3.11): viscous friction, with the mass conventions") {
 }
 
 TEST_CASE("(3.13) and (3.25): a spring, with and without the cap") {
-  Bench<CundallStrack> free(CundallStrack{stiffness(10), {0.5, false}}), capped(CundallStrack{stiffness(10), {0.5, true}});
+  Bench<CundallStrack> free(CundallStrack{stiffness(10), {0.5, false}}),
+      capped(CundallStrack{stiffness(10), {0.5, true}});
   // sticking: a spring
   CHECK(free.slip({{0.05}}, 2)[0] == Approx(-0.5));
   CHECK(capped.slip({{0.05}}, 2)[0] == Approx(-0.5));
@@ -111,7 +112,8 @@ TEST_CASE("(3.17), (3.18): the exact step against the printed Euler steps, throu
     const double d = way / steps;
     if (d * direction < 0) F_star = F, direction = -direction;
     for (int n = 0; n < steps; ++n) {
-      const double bracket = direction > 0 ? 1 - (F - F_star) / (L - F_star) : 1 - (F_star - F) / (L + F_star);
+      const double bracket =
+          direction > 0 ? 1 - (F - F_star) / (L - F_star) : 1 - (F_star - F) / (L + F_star);
       F += k * std::cbrt(std::clamp(bracket, 0.0, 1.0)) * d;
       F = std::clamp(F, -L, L);
     }

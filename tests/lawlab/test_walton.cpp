@@ -77,7 +77,8 @@ Worst collide_randomly(int count) {
     worst.momentum = std::max(worst.momentum, norm(p_after - p) / scale);
     worst.angular = std::max(worst.angular, norm(l_after - l) / (scale * (radius[0] + radius[1])));
     worst.gain = std::max(worst.gain, (after - energy) / energy);
-    worst.account = std::max(worst.account, std::abs(energy - after - done.normal_loss - done.shear_loss) / energy);
+    worst.account =
+        std::max(worst.account, std::abs(energy - after - done.normal_loss - done.shear_loss) / energy);
     REQUIRE(done.normal_loss >= 0);
     REQUIRE(done.shear_loss >= -1e-12 * energy);
   }
@@ -89,8 +90,9 @@ Worst collide_randomly(int count) {
 TEST_CASE("10^6 random collisions conserve momentum and angular momentum and never gain energy") {
   for (const bool three : {false, true}) {
     const auto worst = three ? collide_randomly<3>(500000) : collide_randomly<2>(500000);
-    WARN((three ? "3D" : "2D") << ", worst of 500000, relative: momentum " << worst.momentum << ", angular momentum "
-                               << worst.angular << ", energy gained " << worst.gain << ", account " << worst.account);
+    WARN((three ? "3D" : "2D") << ", worst of 500000, relative: momentum " << worst.momentum
+                               << ", angular momentum " << worst.angular << ", energy gained " << worst.gain
+                               << ", account " << worst.account);
     CHECK(worst.momentum < 1e-13);
     CHECK(worst.angular < 1e-13);
     CHECK(worst.gain < 1e-13);
@@ -119,8 +121,16 @@ TEST_CASE("3D collisions in a plane are the 2D ones; a fixed grain does not move
   for (int k = 0; k < 1000; ++k) {
     auto i = dice.grain<2>(1, 0.5, 0.1), j = dice.grain<2>(2, 0.3, 0.07);
     if (k % 2) j.inverse_mass = j.inverse_inertia = 0;
-    Collider<3> a{{{i.velocity[0], i.velocity[1], 0}}, {{0, 0, i.spin[0]}}, i.radius, i.inverse_mass, i.inverse_inertia};
-    Collider<3> b{{{j.velocity[0], j.velocity[1], 0}}, {{0, 0, j.spin[0]}}, j.radius, j.inverse_mass, j.inverse_inertia};
+    Collider<3> a{{{i.velocity[0], i.velocity[1], 0}},
+                  {{0, 0, i.spin[0]}},
+                  i.radius,
+                  i.inverse_mass,
+                  i.inverse_inertia};
+    Collider<3> b{{{j.velocity[0], j.velocity[1], 0}},
+                  {{0, 0, j.spin[0]}},
+                  j.radius,
+                  j.inverse_mass,
+                  j.inverse_inertia};
     Vec<2> n = dice.normal<2>();
     n = (1 / norm(n)) * n;
     const auto resting = j;

@@ -79,26 +79,44 @@ double mean_ink(const image::Image& image) {
   return sum / (0.75 * static_cast<double>(image.rgba.size()));
 }
 
+/// Largest difference of the mean values of blocks of 8 x 8 pixels, of 255: what is left when edges, which
+/// two rasterisers round differently, are averaged away. A glyph, a dash or a tick too many shows here.
+double worst_block(const image::Image& a, const image::Image& b) {
+  double worst = 0;
+  for (int y0 = 0; y0 + 8 <= a.height; y0 += 4)
+    for (int x0 = 0; x0 + 8 <= a.width; x0 += 4) {
+      double sum = 0;
+      for (int y = y0; y < y0 + 8; ++y)
+        for (int x = x0; x < x0 + 8; ++x)
+          for (int c = 0; c < 3; ++c) sum += double(a.pixel(x, y)[c]) - b.pixel(x, y)[c];
+      worst = std::max(worst, std::abs(sum) / (3 * 64));
+    }
+  return worst;
+}
+
 }  // namespace
 
 TEST_CASE("two independent rasterisers agree on a figure") {
-  // Both average over samples, on different grids: along edges they differ by a few steps of either's scale.
-  // Measured when this was written: RMS 3.0 of 255, SSIM 0.9989, ink within 0.1 %. A label left out gives RMS
-  // above 10.
+  // Both average over samples, on different grids. Measured when this was written: RMS 2.0 and 2.2 of 255,
+  // SSIM 0.9989, worst block 17.6 and 16.3 (a hairline that lies on quarters of a pixel here and on
+  // fifteenths there).
   for (double dpi : {150.0, 300.0}) {
-    const auto list = lay_out(specimen()).list;
+    auto list = lay_out(specimen()).list;
     const auto mesa = rasterise(list, dpi), cairo = rasterise_by_cairo(list, dpi);
     const auto c = image::compare(cairo, mesa);
-    INFO(c.summary());
-    if (getenv("DUMP")) {
-      image::write_png("/tmp/m.png", mesa);
-      image::write_png("/tmp/c.png", cairo);
-      image::write_png("/tmp/d.png", image::difference(cairo, mesa, 1));
-    }
+    INFO(c.summary() << ", worst block " << worst_block(cairo, mesa));
     REQUIRE(c.same_size);
-    REQUIRE(c.rms < 6);
-    REQUIRE(c.ssim > 0.99);
-    REQUIRE(mean_ink(mesa) == Approx(mean_ink(cairo)).epsilon(0.01));
+    CHECK(c.rms < 4);
+    CHECK(c.ssim > 0.995);
+    CHECK(worst_block(cairo, mesa) < 25);
+    CHECK(mean_ink(mesa) == Approx(mean_ink(cairo)).epsilon(0.01));
+    // and the measure sees one glyph more or less
+    for (auto& item : list.items)
+      if (auto* run = std::get_if<GlyphRun>(&item)) {
+        run->glyphs[0].at.y += 1000;
+        break;
+      }
+    CHECK(worst_block(rasterise_by_cairo(list, dpi), mesa) > 30);
   }
 }
 
