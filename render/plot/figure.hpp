@@ -71,6 +71,8 @@ enum class Place {
   off
 };  ///< top: above the frame
 
+inline bool in_corner(Place p) { return p != Place::automatic && p != Place::top && p != Place::off; }
+
 struct Plot {
   std::string title;
   Axis x, y;

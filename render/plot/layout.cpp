@@ -10,14 +10,11 @@
 
 #include "common/error.hpp"
 #include "plot/axes.hpp"
+#include "plot/inset.hpp"
 #include "plot/legend.hpp"
 
 namespace chute::plot {
 namespace {
-
-constexpr double inset_from_frame = 6;  // of legends and panel labels: clear of the ticks
-
-bool in_corner(Place p) { return p != Place::automatic && p != Place::top && p != Place::off; }
 
 /// One figure on its way to the page.
 class Layouter {
@@ -26,20 +23,21 @@ class Layouter {
       : figure_(figure),
         look_(look_of(figure.style)),
         looks_(assign_looks(figure, look_)),
-        sizes_{look_.tick_size, look_.label_size, 0.33 * look_.tick_size} {
+        sizes_{look_.tick_size, look_.label_size, gap_of(look_)} {
     const int n = static_cast<int>(figure.panels.size());
     if (n == 0) throw InputError("a figure needs at least one panel");
     columns_ = figure.columns > 0 ? figure.columns : figure.width <= 100 || n == 1 ? 1 : 2;
     columns_ = std::min(columns_, n);
     rows_ = (n + columns_ - 1) / columns_;
     page_.width = figure.width * points_per_mm;
+    headroom_.assign(figure.panels.size(), 0);
     make_axes();
     make_legends();
   }
 
   Layout run() {
     // a legend that finds no room inside goes above its frame, which moves everything: until all have a place
-    for (std::size_t attempt = 0; attempt <= 2 * legends_.size() + 1; ++attempt) {
+    for (std::size_t attempt = 0; attempt <= 5 * legends_.size() + 2; ++attempt) {
       solve();
       Layout result = draw();
       if (settled_) return result;
@@ -70,6 +68,7 @@ class Layouter {
   std::vector<Margins> row_margins_, column_margins_;
   std::vector<double> axes_top_;  // what ticks and factors of each panel need above its frame
   Place label_place_ = Place::top_left;
+  std::vector<double> headroom_;
   bool settled_ = false;
 
   int column(std::size_t panel) const { return static_cast<int>(panel) % columns_; }
@@ -78,8 +77,17 @@ class Layouter {
     return panel + static_cast<std::size_t>(columns_) < figure_.panels.size();
   }
 
+  /// More room above the data, as a share of the range: for a legend.
+  static void raise(Span& span, double share) {
+    if (span.scale == Scale::log)
+      span.high *= std::pow(span.high / span.low, share);
+    else
+      span.high += share * (span.high - span.low);
+  }
+
   void make_axes() {
     const auto& panels = figure_.panels;
+    axes_.clear();
     std::vector<Extents> extents;
     for (const auto& p : panels) extents.push_back(extents_of(p));
     for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -88,9 +96,10 @@ class Layouter {
         if (figure_.share_x && column(k) == column(i)) ex.include(extents[k].x);
         if (figure_.share_y && row(k) == row(i)) ey.include(extents[k].y);
       }
-      axes_.push_back(std::make_unique<Axes>(panels[i], span_of(panels[i].x, ex), span_of(panels[i].y, ey),
-                                             sizes_, !figure_.share_x || !has_below(i),
-                                             !figure_.share_y || column(i) == 0));
+      Span y = span_of(panels[i].y, ey);
+      raise(y, headroom_[i]);
+      const bool show_x = !figure_.share_x || !has_below(i), show_y = !figure_.share_y || column(i) == 0;
+      axes_.push_back(std::make_unique<Axes>(panels[i], span_of(panels[i].x, ex), y, sizes_, show_x, show_y));
     }
   }
 
@@ -104,20 +113,7 @@ class Layouter {
   void make_legends() {
     const auto& panels = figure_.panels;
     if (figure_.legend == Legend::off) return;
-    bool common = figure_.legend == Legend::common;
-    if (figure_.legend == Legend::automatic && panels.size() > 1) {
-      // the same series everywhere: all panels share most of what they show with the first
-      std::set<std::string> first;
-      for (const auto& s : panels[0].series) first.insert(s.name);
-      common = first.size() > 1;
-      for (const auto& p : panels) {
-        std::size_t shared = 0;
-        for (const auto& s : p.series) shared += first.count(s.name);
-        common =
-            common && 2 * shared >= std::max(p.series.size(), first.size()) && p.legend == Place::automatic;
-      }
-    }
-    if (common) {
+    if (has_common_legend(figure_)) {
       LegendPlan plan{{look_, looks_}, -1, Place::automatic};
       for (const auto& p : panels) add_series(plan.block, p);
       if (plan.block.count() > 1) legends_.push_back(std::move(plan));
@@ -241,7 +237,7 @@ class Layouter {
     put_headings(out, occupied);
     for (std::size_t i = 0; i < n; ++i)
       for (const auto& inset : figure_.panels[i].insets)
-        put_inset(out, inset, static_cast<int>(i), occupied[i]);
+        draw_inset(out, inset, frames_[i], static_cast<int>(i), look_, looks_, occupied[i]);
     for (auto& legend : legends_) put_legend(out, legend, occupied);
     return out;
   }
@@ -309,62 +305,40 @@ class Layouter {
       legend.block.draw(out.list, {frames_[i].left, top}, legend.columns, legend.panel, out.boxes);
       return;
     }
-    for (int columns : {1, 2}) {
+    for (int columns : {1, 2, 3}) {
       const double width = legend.block.width(columns), height = legend.block.height(columns);
+      std::optional<Occupancy::Room> best;
+      std::size_t panel = 0;
       for (std::size_t i = 0; i < occupied.size(); ++i) {
         if (legend.panel != -1 && legend.panel != static_cast<int>(i)) continue;
-        auto at = occupied[i].room_for(width, height, inset_from_frame, legend.wanted);
-        if (!at && in_corner(legend.wanted))
-          at = occupied[i].corner(width, height, inset_from_frame, legend.wanted);
-        if (!at) continue;
-        legend.block.draw(out.list, *at, columns, static_cast<int>(i), out.boxes);
-        occupied[i].mark({at->x, at->y, at->x + width, at->y + height});
-        return;
+        auto room = occupied[i].room_for(width, height, inset_from_frame, legend.wanted);
+        if (!room && in_corner(legend.wanted))
+          room = Occupancy::Room{occupied[i].corner(width, height, inset_from_frame, legend.wanted), 0};
+        if (!room) continue;
+        room->from_corner += 12 * static_cast<double>(i);  // rather in an earlier panel
+        if (best && best->from_corner <= room->from_corner) continue;
+        best = room;
+        panel = i;
       }
+      if (!best) continue;
+      const Point at = best->at;
+      legend.block.draw(out.list, at, columns, static_cast<int>(panel), out.boxes);
+      occupied[panel].mark({at.x, at.y, at.x + width, at.y + height});
+      return;
     }
-    legend.above = true, settled_ = false;
-  }
-
-  void put_inset(Layout& out, const Inset& inset, int panel, Occupancy& occupied) {
-    const Rect& frame = frames_[static_cast<std::size_t>(panel)];
-    const double width = inset.width * frame.width(), height = inset.height * frame.height();
-    auto at = occupied.room_for(width, height, inset_from_frame, inset.place);
-    if (!at && in_corner(inset.place)) at = occupied.corner(width, height, inset_from_frame, inset.place);
-    if (!at) {  // the least bad corner
-      double least = 2;
-      for (Place place : {Place::top_right, Place::top_left, Place::bottom_right, Place::bottom_left}) {
-        const Point p = occupied.corner(width, height, inset_from_frame, place);
-        const double covered = occupied.covered({p.x, p.y, p.x + width, p.y + height});
-        if (covered < least) least = covered, at = p;
+    settled_ = false;
+    // higher, if the range is ours to choose; else above the frame
+    const auto i = static_cast<std::size_t>(std::max(0, legend.panel));
+    if (!figure_.panels[i].y.max && !figure_.share_y && headroom_[i] < 0.47) {
+      headroom_[i] += 0.12;
+      make_axes();
+    } else {
+      if (headroom_[i] > 0) {
+        headroom_[i] = 0;
+        make_axes();
       }
+      legend.above = true;
     }
-    const Rect outer{at->x, at->y, at->x + width, at->y + height};
-    const auto extents = extents_of(inset.plot);
-    const double shrink = std::max(0.8, smallest_type / look_.tick_size);
-    const TextSizes sizes{shrink * look_.tick_size, shrink * look_.label_size, 0.8 * sizes_.gap};
-    Axes axes(inset.plot, span_of(inset.plot.x, extents.x), span_of(inset.plot.y, extents.y), sizes, true,
-              true);
-    Margins m;
-    Rect inner;
-    for (int pass = 0; pass < 5; ++pass) {
-      inner = {outer.left + m.left, outer.top + m.top, outer.right - m.right, outer.bottom - m.bottom};
-      if (inner.width() < 3 * sizes.tick || inner.height() < 2 * sizes.tick)
-        throw InputError(fmt::format("an inset of {} by {} of its panel is too small for its labels",
-                                     inset.width, inset.height));
-      m.widen(axes.fit(inner.width(), inner.height()));
-    }
-    inner = {outer.left + m.left, outer.top + m.top, outer.right - m.right, outer.bottom - m.bottom};
-    Path ground;
-    out.list.fill(ground.rectangle(outer), look_.paper);
-    Look small = look_;
-    small.marker_size *= 0.75, small.line_width *= 0.85, small.cap *= 0.75;
-    Occupancy inside(inner);
-    Painter painter{out.list, small, inside};
-    draw_marks(painter, Frame{inner, axes.x(), axes.y()}, inset.plot, looks_);
-    std::vector<Box> own;
-    axes.draw(out.list, look_, inner, m, panel, own);
-    out.boxes.push_back({Box::Kind::inset, outer, panel, ""});
-    occupied.mark(outer);
   }
 };
 

@@ -225,34 +225,7 @@ class SeriesPainter {
   }
 };
 
-bool ends_with_fit(const std::string& name) { return name.size() > 4 && name.ends_with(" fit"); }
-
 }  // namespace
-
-std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look& look) {
-  std::map<std::string, SeriesLook> looks;
-  std::map<std::string, int> indices;
-  int next = 0, next_dash = 0;
-  const auto color = [&](int i) { return look.colors[static_cast<std::size_t>(i) % look.colors.size()]; };
-  const auto assign = [&](const Series& s) {
-    if (looks.count(s.name)) return;
-    const auto base =
-        ends_with_fit(s.name) ? indices.find(s.name.substr(0, s.name.size() - 4)) : indices.end();
-    const bool automatic = !s.color && base == indices.end();
-    const int index = s.color ? *s.color : base != indices.end() ? base->second : next;
-    if (automatic) ++next;
-    indices[s.name] = index;
-    const bool dashed = s.kind == Kind::line || s.kind == Kind::band || s.kind == Kind::steps;
-    const int dash = s.dash ? *s.dash : dashed ? next_dash++ : 0;
-    looks[s.name] = {color(index), s.marker.value_or(index), dash};
-  };
-  for (const auto& panel : figure.panels) {
-    for (const auto& s : panel.series) assign(s);
-    for (const auto& inset : panel.insets)
-      for (const auto& s : inset.plot.series) assign(s);
-  }
-  return looks;
-}
 
 namespace {
 
@@ -290,6 +263,14 @@ Extents extents_of(const Plot& plot) {
   for (const auto& s : plot.series) {
     check_lengths(s);
     include_series(e, plot, s);
+  }
+  // a line that runs along the lower edge for long would not be seen there: it asks for room as markers do
+  for (const auto& s : plot.series) {
+    if (s.kind != Kind::line) continue;
+    const double edge = e.y.low + 0.01 * (e.y.high - e.y.low);
+    const auto there = std::count_if(s.y.begin(), s.y.end(), [&](double y) { return y < edge; });
+    if (there > 2 && 5 * static_cast<std::size_t>(there) > s.y.size())
+      e.y.marker_low = std::min(e.y.marker_low, e.y.low);
   }
   for (const auto& r : plot.references) {
     if (r.kind == Reference::Kind::horizontal) e.y.include(r.at, plot.y.scale);

@@ -28,8 +28,12 @@ struct SeriesLook {
   int marker = 0, dash = 0;
 };
 
+/// One legend for all panels: asked for, or the panels show mostly the same series.
+bool has_common_legend(const Figure& figure);
+
 /// One look per name, the same in every panel: colours and markers in the order in which names first appear,
-/// dashes among those drawn as lines. "NAME fit" takes the colour of NAME.
+/// dashes among those drawn as lines. Panels with legends of their own start anew. "NAME fit" takes the
+/// colour of NAME.
 std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look& look);
 
 struct Painter {

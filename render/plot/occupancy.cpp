@@ -64,15 +64,15 @@ Point Occupancy::corner(double width, double height, double inset, Place place) 
           top ? frame_.top + inset : frame_.bottom - inset - height};
 }
 
-std::optional<Point> Occupancy::room_for(double width, double height, double inset, Place wanted) const {
+std::optional<Occupancy::Room> Occupancy::room_for(double width, double height, double inset,
+                                                   Place wanted) const {
   constexpr std::array corners{Place::top_right, Place::top_left, Place::bottom_right, Place::bottom_left};
   const Rect area = frame_.grown(-inset);
   if (area.width() < width || area.height() < height) return {};
   const auto is_free = [&](Point p) {
     return free({p.x - 1.5, p.y - 1.5, p.x + width + 1.5, p.y + height + 1.5});
   };
-  std::optional<Point> best;
-  double best_cost = 1e300;
+  std::optional<Room> best;
   const auto consider = [&](Point p) {
     double cost = 1e300;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -80,7 +80,7 @@ std::optional<Point> Occupancy::room_for(double width, double height, double ins
       const Point c = corner(width, height, inset, corners[i]);
       cost = std::min(cost, std::hypot(p.x - c.x, p.y - c.y) + 1.0 * static_cast<double>(i));
     }
-    if (cost < best_cost && is_free(p)) best = p, best_cost = cost;
+    if ((!best || cost < best->from_corner) && is_free(p)) best = Room{p, cost};
   };
   for (Place c : corners)
     if (wanted == Place::automatic || wanted == c) consider(corner(width, height, inset, c));

@@ -18,9 +18,13 @@ class Occupancy {
   double covered(const Rect& rect) const;
   bool free(const Rect& rect) const { return covered(rect) == 0; }
 
-  /// Upper left corner for a block of this size, `inset` away from the frame, that covers nothing and sits as
-  /// near to a corner as can be (`wanted`: at that corner or nowhere else). Nothing if there is no room.
-  std::optional<Point> room_for(double width, double height, double inset, Place wanted) const;
+  struct Room {
+    Point at;                ///< upper left corner of the block
+    double from_corner = 0;  ///< how far it is from the best corner, points
+  };
+  /// Room for a block of this size, `inset` away from the frame, that covers nothing and sits as near to a
+  /// corner as can be (`wanted`: at that corner or nowhere else). Nothing if there is none.
+  std::optional<Room> room_for(double width, double height, double inset, Place wanted) const;
   /// The corner place itself, taken or not.
   Point corner(double width, double height, double inset, Place place) const;
 

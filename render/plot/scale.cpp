@@ -195,11 +195,10 @@ class Ruler {
   Ticks logarithmic() const {
     const int first = static_cast<int>(std::ceil(std::log10(span_.low) - 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(span_.high) + 1e-9));
-    if (last - first >= 2 || (last - first == 1 && length_ < 12 * size_)) return decades(first, last);
+    if (last > first && span_.high / span_.low > 12) return decades(first, last);
     if (span_.high / span_.low > 3) {
       auto ticks = one_two_five();
       if (ticks.major.size() >= 3 && fits(ticks.major, narrow_gap())) return ticks;
-      if (last - first == 1) return decades(first, last);
     }
     return linear(true);
   }

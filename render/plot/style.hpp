@@ -23,6 +23,11 @@ struct Look {
 
 const Look& look_of(Style style);
 
+/// Clear of ticks: how far legends, panel labels and insets stand from their frame.
+inline constexpr double inset_from_frame = 6;
+/// Between frame, tick labels and axis labels.
+inline double gap_of(const Look& look) { return 0.33 * look.tick_size; }
+
 /// Wong's (Nature Methods 8, 441) eight, as Okabe and Ito chose them, the yellow darkened so that it shows on
 /// white; told apart with any colour blindness. In every style a series also differs from its neighbours by
 /// marker and dash.

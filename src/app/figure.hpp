@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "figures/figure_table.hpp"
+#include "common/figure_table.hpp"
 
 namespace chute::app {
 

@@ -8,26 +8,33 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// When x + v t + ½ a t² passes `wall` with a velocity of the sign of `way`; NaN if it does not. There is at most one
-/// such time, and it may be in the past.
-double passes(double x, double v, double a, double wall, int way) {
+/// When a flight along one axis, x + v t + ½ a t² from t = 0, leaves through `wall` in the direction `way` =
+/// ±1, not before `now`. It is inside, or outside by rounding: then it leaves as soon as it moves outwards.
+/// Outward passages against the pull are before the flight's turning point, those with it after; that keeps a
+/// flight that turns right at a wall from leaving to and fro without end.
+double leaves(double x, double v, double a, double wall, int way, double now) {
   const double ahead = wall - x;
-  if (a == 0) return v * way > 0 ? ahead / v : NAN;
-  const double square = v * v + 2 * a * ahead;
-  const double speed = way * std::sqrt(square);  // velocity at the wall; NaN if it turns before
-  if (speed == 0 && a * way < 0) return NAN;     // it only touches the wall from within
-  return v * way > 0 && speed + v != 0 ? 2 * ahead / (speed + v) : (speed - v) / a;  // the one without cancellation
+  if (a == 0) return v * way > 0 ? std::max(ahead / v, now) : never;
+  const double turn = -v / a, square = v * v + 2 * a * ahead;
+  const bool with_pull = a * way > 0;
+  if (!with_pull && !(now < turn && square >= 0)) return never;  // on its way back, or turns before the wall
+  if (square < 0) return std::max(turn, now);                    // outside by rounding
+  const double speed = way * std::sqrt(square);                  // velocity at the wall
+  const double t = v * way > 0 ? 2 * ahead / (speed + v) : (speed - v) / a;  // the one without cancellation
+  return with_pull ? std::max({t, turn, now}) : std::max(std::min(t, turn), now);
 }
 
 }  // namespace
 
 template <int D>
-void Cells<D>::build(const std::vector<Flight<D>>& flights, const Domain<D>& domain, double reach, double now) {
+void Cells<D>::build(const std::vector<Flight<D>>& flights, const Domain<D>& domain, double reach,
+                     double now) {
   domain_ = domain;
   const std::size_t n = flights.size();
   // A grain far away must not cost memory: no more cells than a few per grain.
   const double most = std::pow(4.0 * static_cast<double>(n) + 64, 1.0 / D) * 4;
-  const double narrowest = reach * (1 + 1e-6);  // a pair that touches is in neighbouring cells whatever rounding does
+  const double narrowest =
+      reach * (1 + 1e-6);  // a pair that touches is in neighbouring cells whatever rounding does
   std::vector<Vec<D>> places(n);
   homes_.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
@@ -38,12 +45,13 @@ void Cells<D>::build(const std::vector<Flight<D>>& flights, const Domain<D>& dom
     double length = domain.length[k];
     lower_[k] = domain.lower[k];
     if (!domain.periodic(k)) {
-      const auto [low, high] = std::minmax_element(places.begin(), places.end(),
-                                                   [k](const Vec<D>& a, const Vec<D>& b) { return a[k] < b[k]; });
+      const auto [low, high] = std::minmax_element(
+          places.begin(), places.end(), [k](const Vec<D>& a, const Vec<D>& b) { return a[k] < b[k]; });
       lower_[k] = (*low)[k];
       length = std::max((*high)[k] - (*low)[k], narrowest);
     }
-    count_[static_cast<std::size_t>(k)] = static_cast<int>(std::clamp(std::floor(length / narrowest), 1.0, most));
+    count_[static_cast<std::size_t>(k)] =
+        static_cast<int>(std::clamp(std::floor(length / narrowest), 1.0, most));
     width_[k] = length / count_[static_cast<std::size_t>(k)];
   }
   std::size_t cells = 1;
@@ -54,8 +62,8 @@ void Cells<D>::build(const std::vector<Flight<D>>& flights, const Domain<D>& dom
   for (std::size_t i = n; i-- > 0;) {  // backwards: ids ascend along a chain
     for (int k = 0; k < D; ++k) {
       const auto axis = static_cast<std::size_t>(k);
-      homes_[i].cell[axis] = std::clamp(static_cast<int>(std::floor((places[i][k] - lower_[k]) / width_[k])), 0,
-                                        count_[axis] - 1);
+      homes_[i].cell[axis] = std::clamp(static_cast<int>(std::floor((places[i][k] - lower_[k]) / width_[k])),
+                                        0, count_[axis] - 1);
     }
     insert(i);
   }
@@ -72,13 +80,8 @@ typename Cells<D>::Crossing Cells<D>::crossing(std::size_t i, const Flight<D>& f
       const bool outermost = home.cell[axis] == (step < 0 ? 0 : count_[axis] - 1);
       if (outermost && !domain_.periodic(k)) continue;
       const double wall = lower_[k] + (home.cell[axis] + (step > 0)) * width_[k] + home.laps[axis] * period;
-      const double t = flight.time + passes(flight.place[k], flight.velocity[k], flight.gravity[k], wall, step);
-      // A time before now is a passage that is done, unless the grain is outside its cell by rounding: on its way out it
-      // goes at once.
-      const double dt = now - flight.time, v = flight.velocity[k] + dt * flight.gravity[k];
-      const double x = flight.place[k] + dt * (flight.velocity[k] + 0.5 * dt * flight.gravity[k]);
-      double when = t >= now ? t : never;
-      if ((x - wall) * step > 0 && v * step > 0) when = now;
+      const double when = flight.time + leaves(flight.place[k], flight.velocity[k], flight.gravity[k], wall,
+                                               step, now - flight.time);
       if (when < first.time) first = {when, k, step};
     }
   }
@@ -126,7 +129,8 @@ void Cells<D>::insert(std::size_t i) {
 template <int D>
 void Cells<D>::remove(std::size_t i) {
   if (next_[i] != none) previous_[static_cast<std::size_t>(next_[i])] = previous_[i];
-  (previous_[i] != none ? next_[static_cast<std::size_t>(previous_[i])] : first_[flat(homes_[i].cell)]) = next_[i];
+  (previous_[i] != none ? next_[static_cast<std::size_t>(previous_[i])] : first_[flat(homes_[i].cell)]) =
+      next_[i];
 }
 
 template class Cells<2>;

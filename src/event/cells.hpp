@@ -8,9 +8,9 @@
 
 namespace chute::event {
 
-/// A grid of cells, none narrower than the farthest pair that touches, so that grains meet only in the same or in
-/// neighbouring cells. Grains in flight change cells at times that are known ahead. Where the domain is not periodic
-/// the outermost cells reach to infinity.
+/// A grid of cells, none narrower than the farthest pair that touches, so that grains meet only in the same
+/// or in neighbouring cells. Grains in flight change cells at times that are known ahead. Where the domain is
+/// not periodic the outermost cells reach to infinity.
 template <int D>
 class Cells {
  public:
@@ -28,8 +28,8 @@ class Cells {
     int axis = 0, step = 0;
   };
 
-  /// Lays the grid around the grains' places at time `now` and puts them in. No period may be shorter than 2 `reach`,
-  /// where `reach` is the largest R_i + R_j.
+  /// Lays the grid around the grains' places at time `now` and puts them in. No period may be shorter than 2
+  /// `reach`, where `reach` is the largest R_i + R_j.
   void build(const std::vector<Flight<D>>& flights, const Domain<D>& domain, double reach, double now);
 
   /// When grain i leaves its cell. The time is not before `now`.
@@ -40,8 +40,8 @@ class Cells {
     for (std::size_t k = 0; k < D; ++k) homes_[i].laps[k] -= periods[k];
   }
 
-  /// Calls visit(j, shift) for every other grain j near i; `shift` is by how many periods j's flight must be moved to
-  /// be seen from i's. With a crossing, only for the cells that came into sight with it.
+  /// Calls visit(j, shift) for every other grain j near i; `shift` is by how many periods j's flight must be
+  /// moved to be seen from i's. With a crossing, only for the cells that came into sight with it.
   template <class Visit>
   void neighbours(std::size_t i, const Crossing* crossed, const Visit& visit) const {
     const Home& home = homes_[i];
@@ -72,7 +72,8 @@ class Cells {
     }
   }
 
-  /// Whether so many moving grains left the box that the grid should be laid anew: results do not depend on it, cost does.
+  /// Whether so many moving grains left the box that the grid should be laid anew: results do not depend on
+  /// it, cost does.
   bool outgrown(const std::vector<Flight<D>>& flights, std::size_t moving, double now) const;
 
  private:
@@ -85,7 +86,8 @@ class Cells {
 
   std::size_t flat(const Cell& c) const {
     std::size_t n = 0;
-    for (std::size_t k = 0; k < D; ++k) n = n * static_cast<std::size_t>(count_[k]) + static_cast<std::size_t>(c[k]);
+    for (std::size_t k = 0; k < D; ++k)
+      n = n * static_cast<std::size_t>(count_[k]) + static_cast<std::size_t>(c[k]);
     return n;
   }
   void insert(std::size_t i);

@@ -10,25 +10,27 @@
 
 #include "common/error.hpp"
 #include "event/first_contact.hpp"
+#include "event/impact_record.hpp"
 
 namespace chute::event {
 namespace {
 
-/// A collapse shows as a grain that collides this often within a short time, in units of the time in which a grain falls its
-/// own size: bounces of 1e-6 of it rise to 1e-13 of that size, and a little below, rounding of places keeps kicking the
-/// grain about, so that a collapse need not end. A contact time of more than some 1e-5 of it keeps clear of this.
+/// A collapse shows as a grain that collides this often within a short time, in units of the time in which a
+/// grain falls its own size: bounces of 1e-6 of it rise to 1e-13 of that size, and a little below, rounding
+/// of places keeps kicking the grain about, so that a collapse need not end. A contact time of more than some
+/// 1e-5 of it keeps clear of this.
 constexpr std::int64_t collapse_collisions = 1000;
 constexpr double collapse_time = 1e-3;
 
-/// Two grains whose distance at their collision is off by more than this part of R_i + R_j have missed it: an error of
-/// this engine, not of the scene.
+/// Two grains whose distance at their collision is off by more than this part of R_i + R_j have missed it: an
+/// error of this engine, not of the scene.
 constexpr double missed = 1e-6;
 
 /// Grains may overlap by this part of R_i + R_j at the start: rounding of places that were meant to touch.
 constexpr double touching = 1e-9;
 
-/// Lower bound of the rebound in a lasting contact, in units of g t_c. The bounce then lasts at least t_c/2 on a level
-/// bead, safely within the train; 1/2 would end it.
+/// Lower bound of the rebound in a lasting contact, in units of g t_c. The bounce then lasts at least t_c/2
+/// on a level bead, safely within the train; 1/2 would end it.
 constexpr double least_rebound = 0.25;
 
 }  // namespace
@@ -56,8 +58,9 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
   reach_ = widest_moving + (moving > 1 ? std::max(widest_moving, widest_fixed) : widest_fixed);
   for (int k = 0; k < D; ++k) {
     if (setup_.domain.length[k] < 2 * reach_)
-      throw WorkError(fmt::format("a periodic domain of length {} is too short for grains of radius {}: needed {}",
-                                  setup_.domain.length[k], widest_moving, 2 * reach_));
+      throw WorkError(
+          fmt::format("a periodic domain of length {} is too short for grains of radius {}: needed {}",
+                      setup_.domain.length[k], widest_moving, 2 * reach_));
     force_[static_cast<std::size_t>(k)].assign(n, 0);
   }
   contact_.resize(moving);
@@ -80,13 +83,13 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
       const double distance = norm(setup_.domain.way(flights_[i].place, flights_[j].place));
       const double reach = flights_[i].radius + flights_[j].radius;
       if (distance < reach * (1 - touching))
-        throw WorkError(fmt::format("grains {} and {} overlap by {:.3g} at the start; hard grains cannot", i, j,
-                                    reach - distance));
+        throw WorkError(fmt::format("grains {} and {} overlap by {:.3g} at the start; hard grains cannot", i,
+                                    j, reach - distance));
     });
 }
 
-/// When two grains meet, if not surely later than `limit`. Computed from the later of their last collisions, and always
-/// the same way round: the same bytes whoever asks, and when.
+/// When two grains meet, if not surely later than `limit`. Computed from the later of their last collisions,
+/// and always the same way round: the same bytes whoever asks, and when.
 template <int D>
 double EventEngine<D>::contact_with(std::size_t i, const Candidate& candidate, double limit) {
   ++work_.candidates;
@@ -110,8 +113,8 @@ double EventEngine<D>::contact_with(std::size_t i, const Candidate& candidate, d
   return from + first_contact(approach);
 }
 
-/// Looks for grain i's earliest collision: among all neighbours, the likely one first, or, after a crossing, among the
-/// new ones.
+/// Looks for grain i's earliest collision: among all neighbours, the likely one first, or, after a crossing,
+/// among the new ones.
 template <int D>
 void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely) {
   Contact& first = contact_[i];
@@ -219,7 +222,9 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   const Vec<D> n = (1 / distance) * way;
 
   const Meeting* train = meetings_.running(i, j, now_);
-  if (collecting_ && !train) impacts_.push_back(impact(i, j, n));
+  if (collecting_ && !train)  // of two moving grains the one with the lower id counts as the bead
+    impacts_.push_back(both ? impact_record(now_, j, flights_[j], i, flights_[i], n)
+                            : impact_record(now_, i, flights_[i], j, flights_[j], -1.0 * n));
   laws::Collider<D> a = collider(i), b = collider(j);
   const auto done = exchange(n, train, a, b);
   const double normal = dot(done.impulse, n);
@@ -240,33 +245,10 @@ void EventEngine<D>::check_collapse(std::size_t i) {
   Burst& burst = bursts_[i];
   if (now_ - burst.begin > still_) burst = {now_, 0};
   if (++burst.collisions > collapse_collisions)
-    leave_physics(i, fmt::format("inelastic collapse: it collides ever more often ({} times within {:.2g}); give a "
-                                 "contact time, or a longer one, below which collisions are elastic",
-                                 burst.collisions, still_));
-}
-
-template <int D>
-Impact EventEngine<D>::impact(std::size_t i, std::size_t j, const Vec<D>& n) const {
-  // `n` leads from i to j. Of two moving grains the one with the lower id counts as the bead.
-  const bool turned = j < grains_.moving;
-  const std::size_t grain = turned ? j : i, bead = turned ? i : j;
-  const Vec<D> normal = turned ? n : -1.0 * n, v = flights_[grain].velocity - flights_[bead].velocity;
-  const Vec<D> place = flights_[bead].place + flights_[bead].radius * normal;
-  Impact impact{};
-  impact.time = now_;
-  impact.grain = static_cast<std::int64_t>(grain);
-  impact.bead = static_cast<std::int64_t>(bead);
-  for (int k = 0; k < D; ++k) impact.place[static_cast<std::size_t>(k)] = place[k];
-  impact.v_n = dot(v, normal);
-  if constexpr (D == 2) {
-    impact.gamma = std::atan2(normal[0], normal[1]);
-    impact.v_t = v[0] * normal[1] - v[1] * normal[0];  // along s = (n_y, −n_x): downhill at the top of a bead
-  } else {
-    impact.gamma = std::acos(std::clamp(normal[2], -1.0, 1.0));
-    impact.phi = std::atan2(normal[1], normal[0]);
-    impact.v_t = norm(v - impact.v_n * normal);
-  }
-  return impact;
+    leave_physics(
+        i, fmt::format("inelastic collapse: it collides ever more often ({} times within {:.2g}); give a "
+                       "contact time, or a longer one, below which collisions are elastic",
+                       burst.collisions, still_));
 }
 
 template <int D>
@@ -276,7 +258,8 @@ std::vector<Impact> EventEngine<D>::take_impacts() {
 
 template <int D>
 void EventEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", now_, step_, grain, what));
+  throw WorkError(
+      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", now_, step_, grain, what));
 }
 
 /// Brings what others see to the current tick. The flights stay as they are.
@@ -342,7 +325,8 @@ EnergyAccount EventEngine<D>::energy() const {
     for (std::size_t k = 0; k < D; ++k) {
       const double v = grains_.velocity[k][i];
       e.translation += 0.5 * grains_.mass[i] * v * v;
-      e.gravity_work += grains_.mass[i] * setup_.gravity[static_cast<int>(k)] * (view.unwrapped(i, k) - start_place_[k][i]);
+      e.gravity_work +=
+          grains_.mass[i] * setup_.gravity[static_cast<int>(k)] * (view.unwrapped(i, k) - start_place_[k][i]);
     }
     for (std::size_t k = 0; k < turns<D>; ++k)
       e.rotation += 0.5 * grains_.inertia[i] * grains_.spin[k][i] * grains_.spin[k][i];
@@ -357,15 +341,16 @@ std::vector<ContactRecord> EventEngine<D>::contacts() const {
     for (const Meeting& m : meetings_.of(i)) {
       if (!m.lasting() || !meetings_.runs(m, time())) continue;
       const double duration = m.last - m.first;
-      records.push_back({static_cast<std::int64_t>(i), m.other, 0, m.normal_impulse / duration, m.shear_impulse / duration});
+      records.push_back({static_cast<std::int64_t>(i), m.other, 0, m.normal_impulse / duration,
+                         m.shear_impulse / duration});
     }
   std::sort(records.begin(), records.end(),
             [](const auto& a, const auto& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
   return records;
 }
 
-/// Everything that changes during a run, for both directions of a checkpoint. Cells, queue and predictions follow
-/// from it.
+/// Everything that changes during a run, for both directions of a checkpoint. Cells, queue and predictions
+/// follow from it.
 template <int D>
 template <class Archive, class Self>
 void EventEngine<D>::transfer(Archive& archive, Self& self) {
@@ -374,8 +359,8 @@ void EventEngine<D>::transfer(Archive& archive, Self& self) {
     archive(f.place.c, f.velocity.c, f.spin.c, f.angle.c, f.wraps, f.time);
     archive(self.bursts_[i].begin, self.bursts_[i].collisions);
   }
-  archive(self.start_place_, self.meetings_, self.account_.start, self.account_.normal_loss, self.account_.shear_loss,
-          self.now_, self.step_);
+  archive(self.start_place_, self.meetings_, self.account_.start, self.account_.normal_loss,
+          self.account_.shear_loss, self.now_, self.step_);
 }
 
 template <int D>

@@ -22,32 +22,34 @@ struct EventSetup {
   Domain<D> domain;
   Vec<D> gravity{};
   HardContact contact;
-  /// t_c of the cut-off against inelastic collapse, 0: none. See EventEngine. A real contact lasts t_n of (3.3); results
-  /// must not depend on t_c as long as g t_c is far below the velocities that matter.
+  /// t_c of the cut-off against inelastic collapse, 0: none. See EventEngine. A real contact lasts t_n of
+  /// (3.3); results must not depend on t_c as long as g t_c is far below the velocities that matter.
   double contact_time = 0;
   double tick = 0;  ///< time between the instants that a caller can stop at; the motion does not depend on it
   double floor = -std::numeric_limits<double>::infinity();  ///< a grain below (last coordinate) is lost
 };
 
-/// Event-driven molecular dynamics of hard spheres, thesis 2.1.3: grains fly freely from collision to collision, whose times
-/// are solved for (first_contact.hpp), and a collision changes velocities at once (laws/walton.hpp).
+/// Event-driven molecular dynamics of hard spheres, thesis 2.1.3: grains fly freely from collision to
+/// collision, whose times are solved for (first_contact.hpp), and a collision changes velocities at once
+/// (laws/walton.hpp).
 ///
-/// Every grain remembers its flight since its last collision and its earliest event: a collision, or the change to the
-/// next cell of a grid, where it looks for new partners. A queue holds these; a grain whose partner was hit by somebody
-/// else finds out when its event comes up and looks again. The work per collision does not grow with the number of grains
-/// but for the O(log N) of the queue.
+/// Every grain remembers its flight since its last collision and its earliest event: a collision, or the
+/// change to the next cell of a grid, where it looks for new partners. A queue holds these; a grain whose
+/// partner was hit by somebody else finds out when its event comes up and looks again. The work per collision
+/// does not grow with the number of grains but for the O(log N) of the queue.
 ///
-/// Inelastic collapse. Without a cut-off, a grain that comes to rest collides infinitely often in a finite time; the run then
-/// stops with a WorkError that names it. With t_c > 0, a collision less than t_c after the last one *of the same pair* is
-/// elastic, after Luding (thesis 2.1.3): a lasting contact is then a train of tiny bounces whose mean force is the true
-/// contact force, within Coulomb's limit. The time counts per pair, not per grain: a ball that rolls from one bead onto the
-/// next hits that one with its full loss. Friction goes on taking energy in such a train (a ball wedged between two beads
-/// would still collapse, even with e_n = 1), so the rebound is kept at |g| t_c/4 or more, half the fall in t_c; what
-/// that puts in counts as negative normal loss. Only the collision that begins a train (meetings.hpp) is an impact; trains
-/// are contacts().
+/// Inelastic collapse. Without a cut-off, a grain that comes to rest collides infinitely often in a finite
+/// time; the run then stops with a WorkError that names it. With t_c > 0, a collision less than t_c after the
+/// last one *of the same pair* is elastic, after Luding (thesis 2.1.3): a lasting contact is then a train of
+/// tiny bounces whose mean force is the true contact force, within Coulomb's limit. The time counts per pair,
+/// not per grain: a ball that rolls from one bead onto the next hits that one with its full loss. Friction
+/// goes on taking energy in such a train (a ball wedged between two beads would still collapse, even with e_n
+/// = 1), so the rebound is kept at |g| t_c/4 or more, half the fall in t_c; what that puts in counts as
+/// negative normal loss. Only the collision that begins a train (meetings.hpp) is an impact; trains are
+/// contacts().
 ///
-/// A velocity-dependent e_n alone does not prevent collapse under gravity: bounces then shrink like k^(−1/δ), and their times
-/// still add up to a finite one for δ < 1.
+/// A velocity-dependent e_n alone does not prevent collapse under gravity: bounces then shrink like k^(−1/δ),
+/// and their times still add up to a finite one for δ < 1.
 template <int D>
 class EventEngine final : public Engine {
  public:
@@ -120,9 +122,9 @@ class EventEngine final : public Engine {
   void collide(std::size_t i, std::size_t j);
   void check_collapse(std::size_t i);
   void show();
-  Impact impact(std::size_t i, std::size_t j, const Vec<D>& n) const;
   laws::Collider<D> collider(std::size_t i) const;
-  laws::Collision<D> exchange(const Vec<D>& n, const Meeting* train, laws::Collider<D>& a, laws::Collider<D>& b);
+  laws::Collision<D> exchange(const Vec<D>& n, const Meeting* train, laws::Collider<D>& a,
+                              laws::Collider<D>& b);
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);

@@ -10,9 +10,11 @@ namespace chute::event {
 namespace {
 
 std::string how(const BallOnLine& ball) {
-  return fmt::format("event-driven, Walton's collisions: e_n = 0.7, mu = 0.13, beta = 0.34; r = {} mm, eps = 0, solid sphere, "
-                     "start with v_x = {} m/s, v_z = {} m/s, no spin; contact time {} s",
-                     ball.radius * 1e3, ball.velocity, ball.velocity_up, ball.contact_time);
+  return fmt::format(
+      "event-driven, Walton's collisions: e_n = 0.7, mu = 0.13, beta = 0.34; r = {} mm, eps = 0, solid "
+      "sphere, "
+      "start with v_x = {} m/s, v_z = {} m/s, no spin; contact time {} s",
+      ball.radius * 1e3, ball.velocity, ball.velocity_up, ball.contact_time);
 }
 
 std::int64_t ticks(const BallOnLine& ball, double time) { return std::llround(time / ball.tick); }

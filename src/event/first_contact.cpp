@@ -12,8 +12,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The root of a function that changes sign once between low and high, to the last bits; the end at which the function
-/// still has the sign it has at `low`.
+/// The root of a function that changes sign once between low and high, to the last bits; the end at which the
+/// function still has the sign it has at `low`.
 template <class Function>
 double root_before(const Function& f, double low, double high, double at_low, double at_high) {
   if (at_low == 0) return low;
@@ -24,8 +24,8 @@ double root_before(const Function& f, double low, double high, double at_low, do
   return bracket.first;
 }
 
-/// Two grains in free flight: gravity cancels, and (2.18) is a quadratic. The discriminant is that of the nearest
-/// pass, reach² − |d − (d·v/v²) v|², which does not lose its digits when the grains are far apart.
+/// Two grains in free flight: gravity cancels, and (2.18) is a quadratic. The discriminant is that of the
+/// nearest pass, reach² − |d − (d·v/v²) v|², which does not lose its digits when the grains are far apart.
 template <int D>
 double first_contact_linear(const Approach<D>& a) {
   const double closing = dot(a.d, a.v);
@@ -39,13 +39,17 @@ double first_contact_linear(const Approach<D>& a) {
   return c / (-closing + std::sqrt(v_squared * depth));
 }
 
-/// Half the derivative of the gap, ½ d|r|²/dt = r·r': a cubic with a positive leading coefficient. Its roots are where the
-/// gap turns, and its own turning points are a quadratic's roots; between those everything is monotone.
+/// Half the derivative of the gap, ½ d|r|²/dt = r·r': a cubic with a positive leading coefficient. Its roots
+/// are where the gap turns, and its own turning points are a quadratic's roots; between those everything is
+/// monotone.
 struct Closing {
   double c0, c1, c2, c3;
   template <int D>
   explicit Closing(const Approach<D>& a)
-      : c0(dot(a.d, a.v)), c1(dot(a.v, a.v) + dot(a.d, a.a)), c2(1.5 * dot(a.v, a.a)), c3(0.5 * dot(a.a, a.a)) {}
+      : c0(dot(a.d, a.v)),
+        c1(dot(a.v, a.v) + dot(a.d, a.a)),
+        c2(1.5 * dot(a.v, a.a)),
+        c3(0.5 * dot(a.a, a.a)) {}
 
   double operator()(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
 
@@ -62,8 +66,9 @@ struct Closing {
   }
 };
 
-/// A grain in flight and a fixed one: (2.21) with ½ g t², a quartic. The gap falls only while Closing is negative: in at
-/// most two stretches. Each ends where the gap is least; the spheres touch in it if the gap there is not positive.
+/// A grain in flight and a fixed one: (2.21) with ½ g t², a quartic. The gap falls only while Closing is
+/// negative: in at most two stretches. Each ends where the gap is least; the spheres touch in it if the gap
+/// there is not positive.
 template <int D>
 double first_contact_quartic(const Approach<D>& a) {
   const Closing closing(a);

@@ -5,8 +5,9 @@
 
 namespace chute::event {
 
-/// How two spheres move about each other: the way from the second's centre to the first's is r(t) = d + v t + ½ a t². Two
-/// grains in free flight have a = 0, (2.18); a grain in flight and a fixed one have a = g, (2.21) with ½ g t².
+/// How two spheres move about each other: the way from the second's centre to the first's is r(t) = d + v t +
+/// ½ a t². Two grains in free flight have a = 0, (2.18); a grain in flight and a fixed one have a = g, (2.21)
+/// with ½ g t².
 template <int D>
 struct Approach {
   Vec<D> d, v, a;
@@ -29,10 +30,10 @@ struct Approach {
   }
 };
 
-/// The first time t ≥ 0 at which the spheres touch and do not part, infinity if there is none: the first t at which the
-/// gap is not positive and does not grow. That is the first root of (2.17), and more: spheres that rounding left
-/// overlapping by a hair meet at once if they approach, and do not meet while they part. So no hit is missed, and none is
-/// seen twice. A pass closer to a touch than rounding may count as either.
+/// The first time t ≥ 0 at which the spheres touch and do not part, infinity if there is none: the first t at
+/// which the gap is not positive and does not grow. That is the first root of (2.17), and more: spheres that
+/// rounding left overlapping by a hair meet at once if they approach, and do not meet while they part. So no
+/// hit is missed, and none is seen twice. A pass closer to a touch than rounding may count as either.
 template <int D>
 double first_contact(const Approach<D>& approach);
 

@@ -8,8 +8,8 @@
 
 namespace chute::event {
 
-/// A grain's free flight since its last collision, (2.19), (2.20). Nothing in it changes between collisions, so whatever is
-/// computed from it is the same bytes whenever it is computed.
+/// A grain's free flight since its last collision, (2.19), (2.20). Nothing in it changes between collisions,
+/// so whatever is computed from it is the same bytes whenever it is computed.
 template <int D>
 struct Flight {
   Vec<D> place{}, velocity{}, gravity{};  ///< at `time`; a fixed grain has no gravity

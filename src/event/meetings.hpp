@@ -7,10 +7,11 @@ namespace chute::event {
 
 /// The contact of two grains as hard spheres know it: a train of collisions that follow each other closely.
 struct Meeting {
-  std::int32_t other = 0;    ///< the grain with the higher id
-  double first = 0;          ///< when the train began
-  double last = 0;           ///< its last collision
-  double normal_impulse = 0, shear_impulse = 0;  ///< exchanged since `first`, without the collision that began it
+  std::int32_t other = 0;  ///< the grain with the higher id
+  double first = 0;        ///< when the train began
+  double last = 0;         ///< its last collision
+  double normal_impulse = 0,
+         shear_impulse = 0;  ///< exchanged since `first`, without the collision that began it
   bool lasting() const { return last > first; }
 
   template <class Archive>
@@ -19,10 +20,10 @@ struct Meeting {
   }
 };
 
-/// Who met whom lately: what is needed to tell a lasting contact from a bounce. A collision continues a train if it comes
-/// less than 4 t_c after the one before; those that come within t_c are elastic. The two differ because the bounces of a
-/// train grow where the force that presses the grains together fades, and then lose energy again: a ball that rolls over a
-/// bead must not seem to hit it anew each time.
+/// Who met whom lately: what is needed to tell a lasting contact from a bounce. A collision continues a train
+/// if it comes less than 4 t_c after the one before; those that come within t_c are elastic. The two differ
+/// because the bounces of a train grow where the force that presses the grains together fades, and then lose
+/// energy again: a ball that rolls over a bead must not seem to hit it anew each time.
 class Meetings {
  public:
   static constexpr double train_ends = 4;  ///< in units of t_c

@@ -5,8 +5,8 @@
 
 namespace chute::event {
 
-/// Every moving grain's next event, the earliest on top: a change costs O(log N) comparisons. Events at the same time
-/// come in the order of the grains.
+/// Every moving grain's next event, the earliest on top: a change costs O(log N) comparisons. Events at the
+/// same time come in the order of the grains.
 class Schedule {
  public:
   struct Entry {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "figures/figure_table.hpp"
+#include "common/figure_table.hpp"
 
 /// The figures that need no scene: binary impacts and other small set-ups. By id; thesis chapters 1 to 3.
 namespace chute::experiments {

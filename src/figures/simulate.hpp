@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "figures/data_recipe.hpp"
-#include "figures/figure_table.hpp"
+#include "common/figure_table.hpp"
 
 namespace chute::figures {
 

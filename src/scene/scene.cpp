@@ -110,13 +110,13 @@ template <class Archive>
 static void describe(Archive& a, EngineSpec& engine) {
   using Method = EngineSpec::Method;
   a.choice("method", engine.method, method_words);
-  if (engine.method == Method::soft) a.choice("integrator", engine.integrator, integrator_words);
+  const bool soft = engine.method == Method::soft;
+  // What only the soft method uses is understood with all: a scene changes its method with one key.
+  if (soft || Archive::reading) a.choice("integrator", engine.integrator, integrator_words);
   a.value("steps_per_contact", engine.steps_per_contact, at_least(5));
   a.value("time_step", engine.time_step, positive);
-  if (engine.method == Method::soft) {
-    a.value("deepest_overlap", engine.deepest_overlap, Range{0, 1, true, false});
-    return;
-  }
+  if (soft || Archive::reading) a.value("deepest_overlap", engine.deepest_overlap, Range{0, 1, true, false});
+  if (soft) return;
   a.value("restitution", engine.restitution, unit_interval);
   a.value("friction", engine.friction, non_negative);
   a.value("tangential_restitution", engine.tangential_restitution, between(-1, 1));

@@ -26,7 +26,8 @@ double StochasticModel::flight_time(const Vec<2>& v, double gamma) const {
 double StochasticModel::contact_angle(const Vec<2>& v, double u) const {
   const double sin_phi = std::abs(v[1]) / norm(v), phi = std::asin(sin_phi);
   const double ratio = (1 + gap) * bead_radius / (bead_radius + ball_radius);  // sin γ_max
-  double offset = 1 - 2 * u * ratio * sin_phi;  // of the ball's line of flight from the bead's centre, over R + r
+  double offset =
+      1 - 2 * u * ratio * sin_phi;  // of the ball's line of flight from the bead's centre, over R + r
   double gamma = phi - std::acos(offset);
   while (shadowed && gamma > std::asin(ratio)) {  // seen from the next bead, the line passes that much closer
     offset -= 2 * ratio * sin_phi;

@@ -83,7 +83,8 @@ Impact StochasticEngine::impact(const Hop& hop) const {
   impact.bead = -1;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t j = grains_.moving; j < grains_.size(); ++j) {
-    const double periods = domain_.periodic(0) ? std::floor((place_[0] - domain_.lower[0]) / domain_.length[0]) : 0;
+    const double periods =
+        domain_.periodic(0) ? std::floor((place_[0] - domain_.lower[0]) / domain_.length[0]) : 0;
     const double x = place_[0] - (periods != 0 ? periods * domain_.length[0] : 0);
     const double away = std::abs(domain_.way({{x, 0}}, {{grains_.position[0][j], 0}})[0]);
     if (away < nearest) nearest = away, impact.bead = static_cast<std::int64_t>(j);
@@ -137,23 +138,24 @@ EnergyAccount StochasticEngine::energy() const {
   e.start = start_energy_;
   e.translation = kinetic(mass, now);
   e.gravity_work = gravity_work_;
-  if (std::isfinite(end_)) e.gravity_work += kinetic(mass, now) - kinetic(mass, velocity_);  // of the flight so far
+  if (std::isfinite(end_))
+    e.gravity_work += kinetic(mass, now) - kinetic(mass, velocity_);  // of the flight so far
   e.normal_loss = normal_loss_, e.shear_loss = shear_loss_;
   return e;
 }
 
 void StochasticEngine::save(std::ostream& out) const {
   cereal::PortableBinaryOutputArchive archive(out);
-  archive(walk_.velocity().c, walk_.trapped(), begin_, end_, place_.c, velocity_.c, draws_, step_, gravity_work_,
-          normal_loss_, shear_loss_, start_energy_);
+  archive(walk_.velocity().c, walk_.trapped(), begin_, end_, place_.c, velocity_.c, draws_, step_,
+          gravity_work_, normal_loss_, shear_loss_, start_energy_);
 }
 
 void StochasticEngine::restore(std::istream& in) {
   cereal::PortableBinaryInputArchive archive(in);
   Vec<2> velocity;
   bool trapped = false;
-  archive(velocity.c, trapped, begin_, end_, place_.c, velocity_.c, draws_, step_, gravity_work_, normal_loss_,
-          shear_loss_, start_energy_);
+  archive(velocity.c, trapped, begin_, end_, place_.c, velocity_.c, draws_, step_, gravity_work_,
+          normal_loss_, shear_loss_, start_energy_);
   walk_.restore(velocity, trapped);
   random_ = Random(seed_, Purpose::stochastic);
   for (std::int64_t k = 0; k < draws_; ++k) random_.uniform();  // one number per impact

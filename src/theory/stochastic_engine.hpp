@@ -5,18 +5,19 @@
 
 namespace chute::theory {
 
-/// The stochastic model as a run: a ball that hops along the line by StochasticWalk. Its place along the line is the
-/// model's. Away from the line the model only knows flights: each begins and ends on the beads' tops, drawn at height
-/// R + r, whatever it fell in between. `gravity_work` is what gravity did in the flights, so the account closes; that
-/// the model gives the ball falls without a descent of the line is what feeds it at small inclinations.
+/// The stochastic model as a run: a ball that hops along the line by StochasticWalk. Its place along the line
+/// is the model's. Away from the line the model only knows flights: each begins and ends on the beads' tops,
+/// drawn at height R + r, whatever it fell in between. `gravity_work` is what gravity did in the flights, so
+/// the account closes; that the model gives the ball falls without a descent of the line is what feeds it at
+/// small inclinations.
 ///
 /// The bed is for show: an impact's bead is the nearest. A trapped ball lies still.
 class StochasticEngine final : public Engine {
  public:
-  /// `grains`: one moving ball, then the bed; its velocity starts the first flight. WorkError if it is not one ball, or
-  /// does not move downhill.
-  StochasticEngine(Grains<2> grains, const Domain<2>& domain, const StochasticModel& model, std::uint64_t seed,
-                   double tick);
+  /// `grains`: one moving ball, then the bed; its velocity starts the first flight. WorkError if it is not
+  /// one ball, or does not move downhill.
+  StochasticEngine(Grains<2> grains, const Domain<2>& domain, const StochasticModel& model,
+                   std::uint64_t seed, double tick);
 
   void advance_to(std::int64_t step) override;
   std::int64_t step() const override { return step_; }
@@ -37,7 +38,8 @@ class StochasticEngine final : public Engine {
   double tick_, height_ = 0;  ///< of the ball's centre when it touches a bead's top
   Random random_;
   StochasticWalk walk_;
-  // The flight now: from `place_` (x counted on through the periods) at `begin_` with `velocity_`, until `end_`
+  // The flight now: from `place_` (x counted on through the periods) at `begin_` with `velocity_`, until
+  // `end_`
   double begin_ = 0, end_ = 0;
   Vec<2> place_{}, velocity_{};
   std::int64_t draws_ = 0, step_ = 0;

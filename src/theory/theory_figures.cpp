@@ -13,17 +13,21 @@ namespace chute::theory {
 namespace {
 
 const char* const line_comment =
-    "r = 5 mm, g = 9.81 m/s^2, solid sphere; e_n = 0 and endless friction: the ball rolls without bouncing. Curves end "
+    "r = 5 mm, g = 9.81 m/s^2, solid sphere; e_n = 0 and endless friction: the ball rolls without bouncing. "
+    "Curves end "
     "where it would lift off";
 const char* const versions_comment =
-    "theory: as printed (arc length, energy kept while the spin adjusts); theory corrected: way along the line, angular "
+    "theory: as printed (arc length, energy kept while the spin adjusts); theory corrected: way along the "
+    "line, angular "
     "momentum about the contact kept";
 
 const char* name(Version version) { return version == Version::printed ? "theory" : "theory corrected"; }
 
 /// v̄_x from θ_AB, where it rises like 1/log (points close together there), to where the ball would lift off.
-void add_velocity(FigureTable& table, const std::string& series, const Line& line, Version version, int points) {
-  const double lowest = std::sin(boundary_ab(line, version)), steepest = std::sin(lift_off_angle(line, version));
+void add_velocity(FigureTable& table, const std::string& series, const Line& line, Version version,
+                  int points) {
+  const double lowest = std::sin(boundary_ab(line, version)),
+               steepest = std::sin(lift_off_angle(line, version));
   for (int k = 0; k <= points; ++k) {
     const double part = static_cast<double>(k) / points;
     const double sine = lowest + (steepest - lowest) * (1e-6 + (1 - 1e-6) * part * part * part);
@@ -39,7 +43,8 @@ FigureTable compute_theory_4_17(const FigureContext& context) {
   table.comments = {"x: sin theta", "y: mean velocity v_x, m/s", line_comment, versions_comment};
   for (const Version version : {Version::printed, Version::corrected})
     for (const double phi : {1.75, 2.25, 3.0})
-      add_velocity(table, fmt::format("{} Phi={}", name(version), phi), Line{phi}, version, context.quick ? 40 : 200);
+      add_velocity(table, fmt::format("{} Phi={}", name(version), phi), Line{phi}, version,
+                   context.quick ? 40 : 200);
   return table;
 }
 
@@ -72,9 +77,10 @@ FigureTable compute_fig_4_19(const FigureContext& context) {
 
 FigureTable compute_theory_4_20(const FigureContext& context) {
   FigureTable table;
-  table.comments = {"x: size ratio Phi", "y: theta_AB, rad", line_comment,
-                    "theory: (4.62) as printed; theory corrected: with the angular momentum about the contact kept",
-                    "a: eps = 0; b: disordered, mean gap 0.1, largest gap 0.2"};
+  table.comments = {
+      "x: size ratio Phi", "y: theta_AB, rad", line_comment,
+      "theory: (4.62) as printed; theory corrected: with the angular momentum about the contact kept",
+      "a: eps = 0; b: disordered, mean gap 0.1, largest gap 0.2"};
   const int points = context.quick ? 30 : 120;
   for (const auto& [panel, mean, largest] : {std::tuple{"a", 0.0, 0.0}, std::tuple{"b", 0.1, 0.2}})
     for (const Version version : {Version::printed, Version::corrected})
@@ -90,15 +96,18 @@ FigureTable compute_fig_4_04(const FigureContext& context) {
   constexpr double fit_from = 0.1, fit_to = 0.3, step = 0.02;
   const std::int64_t hops = context.quick ? 20'000 : 1'000'000;
   FigureTable table;
-  table.comments = {"x: sin theta", "y: mean velocity v_x per time, m/s",
-                    "stochastic model (4.1.3): r = 0.5 mm, eps = 0, mu = 0.142, e_n = 0.9, beta = 0.45; y_err from block averages",
-                    fmt::format("made with {} impacts a point, seed 1; no point where the ball is trapped or runs away", hops),
-                    "R=3mm ...: e_t by (4.8), as published; with (4.9): e_t of a ball that cannot turn",
-                    fmt::format("fit: straight line through the points with sin theta in [{}, {}]", fit_from, fit_to)};
+  table.comments = {
+      "x: sin theta",
+      "y: mean velocity v_x per time, m/s",
+      "stochastic model (4.1.3): r = 0.5 mm, eps = 0, mu = 0.142, e_n = 0.9, beta = 0.45; y_err from block "
+      "averages",
+      fmt::format("made with {} impacts a point, seed 1; no point where the ball is trapped or runs away",
+                  hops),
+      "R=3mm ...: e_t by (4.8), as published; with (4.9): e_t of a ball that cannot turn",
+      fmt::format("fit: straight line through the points with sin theta in [{}, {}]", fit_from, fit_to)};
   for (const Friction law : {Friction::published, Friction::without_rotation})
     for (const int mm : {3, 4, 5}) {
-      const std::string series =
-          fmt::format("R={}mm{}", mm, law == Friction::published ? "" : " with (4.9)");
+      const std::string series = fmt::format("R={}mm{}", mm, law == Friction::published ? "" : " with (4.9)");
       std::vector<double> x, y;
       for (int k = 1; k <= 30; ++k) {
         const double sine = k * step;
@@ -109,7 +118,8 @@ FigureTable compute_fig_4_04(const FigureContext& context) {
         const auto mean = mean_velocity(model, 1, hops);
         if (mean.trapped || mean.accelerates) continue;
         table.rows.push_back({"", series, sine, mean.velocity, {}, mean.error});
-        if (sine > fit_from - step / 2 && sine < fit_to + step / 2) x.push_back(sine), y.push_back(mean.velocity);
+        if (sine > fit_from - step / 2 && sine < fit_to + step / 2)
+          x.push_back(sine), y.push_back(mean.velocity);
       }
       if (law != Friction::published) continue;  // its range ends where the other's middle begins
       const auto [intercept, slope] = boost::math::statistics::simple_ordinary_least_squares(x, y);

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "figures/figure_table.hpp"
+#include "common/figure_table.hpp"
 
 /// The figures that theory alone makes, and theory's share of those that it is compared in. SI units.
 namespace chute::theory {
@@ -17,7 +17,8 @@ FigureTable compute_theory_4_17(const FigureContext& context);  ///< v̄_x(sin �
 FigureTable compute_theory_4_18(const FigureContext& context);  ///< v̄_x(sin θ), mean gap 0.1
 FigureTable compute_theory_4_20(const FigureContext& context);  ///< θ_AB(Φ)
 
-/// All of them, by id: `fig-4-04`, `fig-4-19`; `theory-4-17`, `theory-4-18`, `theory-4-20` are parts of figures.
+/// All of them, by id: `fig-4-04`, `fig-4-19`; `theory-4-17`, `theory-4-18`, `theory-4-20` are parts of
+/// figures.
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures();
 
 }  // namespace chute::theory

@@ -10,13 +10,14 @@ namespace chute::test {
 
 /// A solid sphere, I = 2/5 m R².
 template <int D>
-void add_ball(Grains<D>& grains, const Vec<D>& place, const Vec<D>& velocity, double radius, double mass, bool moves) {
+void add_ball(Grains<D>& grains, const Vec<D>& place, const Vec<D>& velocity, double radius, double mass,
+              bool moves) {
   grains.add(place, radius, mass, 0.4 * mass * radius * radius, moves);
   for (int k = 0; k < D; ++k) grains.velocity[static_cast<std::size_t>(k)].back() = velocity[k];
 }
 
-/// Grains of unit mass and diameter on a lattice with random velocities and spins, in a box that is periodic in every
-/// direction.
+/// Grains of unit mass and diameter on a lattice with random velocities and spins, in a box that is periodic
+/// in every direction.
 template <int D>
 struct Gas {
   Grains<D> grains;
@@ -48,8 +49,8 @@ struct Heap {
   Heap(int columns, int rows, double angle, unsigned seed = 5) {
     Random random(seed, Purpose::start);
     for (int i = 0; i < columns * rows; ++i)
-      add_ball<2>(grains, {{(i % columns + 0.5) * 1.2, 1.5 + 1.2 * (i / columns)}}, {{random.normal(), random.normal()}},
-                  0.5 * (1 + random.uniform(-0.1, 0.1)), 1, true);
+      add_ball<2>(grains, {{(i % columns + 0.5) * 1.2, 1.5 + 1.2 * (i / columns)}},
+                  {{random.normal(), random.normal()}}, 0.5 * (1 + random.uniform(-0.1, 0.1)), 1, true);
     const double length = 1.2 * columns;
     for (int i = 0; i < columns; ++i) add_ball<2>(grains, {{(i + 0.5) * 1.2, 0}}, {}, 0.5, 1, false);
     setup.domain.length[0] = length;

@@ -101,7 +101,8 @@ TEST_CASE("in 3D the same, turned into an arbitrary plane") {
   engine.advance_to(150);
   const auto& g = engine.state();
   Vec<3> spin;
-  for (int k = 0; k < 3; ++k) spin[k] = g.spin[static_cast<std::size_t>(k)][0] + g.spin[static_cast<std::size_t>(k)][1];
+  for (int k = 0; k < 3; ++k)
+    spin[k] = g.spin[static_cast<std::size_t>(k)][0] + g.spin[static_cast<std::size_t>(k)][1];
   const Vec<3> after = g.speed(0) - g.speed(1) - cross(spin, n);
   CHECK(dot(after, n) == Approx(e).epsilon(1e-12));
   CHECK(dot(after, s) == Approx(-beta * psi).epsilon(1e-12));
@@ -144,7 +145,8 @@ TEST_CASE("no two grains ever overlap, and the energy account closes, in an inel
     double deepest = 0;
     for (std::size_t i = 0; i < g.moving; ++i)
       for (std::size_t j = i + 1; j < g.size(); ++j)
-        deepest = std::max(deepest, g.radius[i] + g.radius[j] - norm(heap.setup.domain.way(g.place(i), g.place(j))));
+        deepest = std::max(deepest,
+                           g.radius[i] + g.radius[j] - norm(heap.setup.domain.way(g.place(i), g.place(j))));
     CHECK(deepest < 1e-12);
     const auto e = engine.energy();
     CHECK(e.residual() == Approx(0).margin(1e-10 * (e.gravity_work + e.normal_loss + e.start)));
@@ -161,8 +163,8 @@ TEST_CASE("saved and restored, a run goes on to the same bytes; where it stops t
     engine.save(out);
     return out.str();
   };
-  EventEngine<2> straight(heap.grains, heap.setup), looked(heap.grains, heap.setup), first(heap.grains, heap.setup),
-      second(heap.grains, heap.setup);
+  EventEngine<2> straight(heap.grains, heap.setup), looked(heap.grains, heap.setup),
+      first(heap.grains, heap.setup), second(heap.grains, heap.setup);
   straight.collect_impacts(true);
   second.collect_impacts(true);
   straight.advance_to(70);
@@ -184,7 +186,8 @@ TEST_CASE("saved and restored, a run goes on to the same bytes; where it stops t
   }
 }
 
-TEMPLATE_TEST_CASE_SIG("the work per collision does not grow with the number of grains", "", ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the work per collision does not grow with the number of grains", "", ((int D), D), 2,
+                       3) {
   double least = 1e9, most = 0;
   for (const int side : D == 2 ? std::vector{10, 30, 100} : std::vector{5, 10, 20}) {
     Gas<D> gas(side, 1.25);
@@ -206,7 +209,8 @@ TEST_CASE("overlapping grains, and a domain shorter than two contacts, are refus
   Grains<2> grains;
   add_ball<2>(grains, {{0, 1.9}}, {}, 1, 1, true);
   add_ball<2>(grains, {{0, 0}}, {}, 1, 1, false);
-  CHECK_THROWS_WITH(EventEngine<2>(grains, free_space<2>({})), Catch::Contains("grains 0 and 1 overlap by 0.1"));
+  CHECK_THROWS_WITH(EventEngine<2>(grains, free_space<2>({})),
+                    Catch::Contains("grains 0 and 1 overlap by 0.1"));
   auto setup = free_space<2>({});
   setup.domain.length[0] = 3;
   CHECK_THROWS_AS(EventEngine<2>(grains, setup), WorkError);
@@ -220,4 +224,23 @@ TEST_CASE("a grain that falls past the bed is named") {
   setup.floor = -4;
   EventEngine<2> engine(grains, setup);
   CHECK_THROWS_WITH(engine.advance_to(1000), Catch::Contains("grain 0: it fell through the bed"));
+}
+
+TEST_CASE("grains that leave the box get a new grid, and nothing is missed") {
+  Heap heap(6, 6, 0.2);
+  heap.setup.contact = {laws::ConstantRestitution{1}, {}};
+  for (std::size_t i = 0; i < heap.grains.moving; ++i)
+    heap.grains.velocity[1][i] += 12;  // thrown ten boxes high
+  EventEngine<2> engine(heap.grains, heap.setup);
+  const double start = engine.energy().stored();
+  engine.advance_to(1000);
+  CHECK(engine.work().layouts > 1);
+  const auto e = engine.energy();
+  CHECK(e.stored() - e.gravity_work == Approx(start).epsilon(1e-10));
+  const auto& g = engine.state();
+  for (std::size_t i = 0; i < g.moving; ++i) {
+    CHECK(g.position[1][i] > 0.5);  // none fell through the bed
+    for (std::size_t j = i + 1; j < g.size(); ++j)
+      CHECK(norm(heap.setup.domain.way(g.place(i), g.place(j))) > (g.radius[i] + g.radius[j]) * (1 - 1e-11));
+  }
 }

@@ -34,7 +34,8 @@ TEST_CASE("fig-4-21: in region C v_x grows without end, and v_z rises and falls 
     REQUIRE(v_x.size() > 30);
     std::size_t half = 0;
     while (t[half] < 10) ++half;
-    const std::vector<double> t1(t.begin(), t.begin() + static_cast<long>(half)), t2(t.begin() + static_cast<long>(half), t.end());
+    const std::vector<double> t1(t.begin(), t.begin() + static_cast<long>(half)),
+        t2(t.begin() + static_cast<long>(half), t.end());
     const std::vector<double> v1(v_x.begin(), v_x.begin() + static_cast<long>(half)),
         v2(v_x.begin() + static_cast<long>(half), v_x.end());
     CHECK(fit(t1, v1).slope > 0.03 * 9.81 * sine);

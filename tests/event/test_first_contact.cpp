@@ -30,8 +30,8 @@ struct Found {
   long double closest;  ///< least gap before it, for a miss the least of all: how close a call it was
 };
 
-/// First crossing by looking at `samples` times up to `horizon`: every dip between two samples is searched for its
-/// bottom, every sign change is bisected.
+/// First crossing by looking at `samples` times up to `horizon`: every dip between two samples is searched
+/// for its bottom, every sign change is bisected.
 template <int D>
 Found brute_force(const Approach<D>& a, double horizon, int samples) {
   const auto at = [&](int i) { return static_cast<long double>(horizon) * i / samples; };
@@ -59,8 +59,7 @@ Found brute_force(const Approach<D>& a, double horizon, int samples) {
     }
     // how deep it goes, if the hit is itself a close call
     long double deepest = 0;
-    for (int n = 1; n <= 50; ++n)
-      deepest = std::min(deepest, overlap_free(a, low + (at(1) * 2) * n / 50));
+    for (int n = 1; n <= 50; ++n) deepest = std::min(deepest, overlap_free(a, low + (at(1) * 2) * n / 50));
     return {static_cast<double>(low), std::min(closest, -deepest)};
   }
   return {never, closest};
@@ -75,7 +74,8 @@ Vec<D> direction(Random& random) {
 
 /// A parabola through a chosen place at a chosen time and velocity there, so that a hit or a graze is near.
 template <int D>
-Approach<D> through(const Vec<D>& place, const Vec<D>& velocity, const Vec<D>& gravity, double time, double reach) {
+Approach<D> through(const Vec<D>& place, const Vec<D>& velocity, const Vec<D>& gravity, double time,
+                    double reach) {
   Approach<D> a;
   a.a = gravity;
   a.v = velocity - time * gravity;
@@ -110,8 +110,8 @@ void compare(const Approach<D>& a, double horizon, int samples, double doubt, Ta
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("a parabola and a fixed bead: the first contact is the one that sampling finds", "", ((int D), D),
-                       2, 3) {
+TEMPLATE_TEST_CASE_SIG("a parabola and a fixed bead: the first contact is the one that sampling finds", "",
+                       ((int D), D), 2, 3) {
   Random random(1, Purpose::start);
   Tally tally;
   for (int n = 0; n < 50000; ++n) {
@@ -130,9 +130,10 @@ TEMPLATE_TEST_CASE_SIG("a parabola and a fixed bead: the first contact is the on
   CHECK(tally.misses > 3000);
 }
 
-TEMPLATE_TEST_CASE_SIG("grazing: hit and miss are told apart down to a gap of 1e-12", "", ((int D), D), 2, 3) {
-  // At the nearest point the velocity is along the bead; the parabola curves less than the bead, so this is the least
-  // distance for a while around. Whether it is a hit is known by construction.
+TEMPLATE_TEST_CASE_SIG("grazing: hit and miss are told apart down to a gap of 1e-12", "", ((int D), D), 2,
+                       3) {
+  // At the nearest point the velocity is along the bead; the parabola curves less than the bead, so this is
+  // the least distance for a while around. Whether it is a hit is known by construction.
   Random random(2, Purpose::start);
   int wrong = 0, hits = 0, misses = 0;
   for (int n = 0; n < 20000; ++n) {
@@ -142,7 +143,8 @@ TEMPLATE_TEST_CASE_SIG("grazing: hit and miss are told apart down to a gap of 1e
     if (normal[D - 1] < 0.1) continue;  // above: gravity pulls towards the bead
     Vec<D> along = direction<D>(random);
     along = along - dot(along, normal) * normal;
-    along = (random.uniform(1.2, 3) / norm(along)) * along;  // v² > g R: it does not fall onto the bead afterwards
+    along = (random.uniform(1.2, 3) / norm(along)) *
+            along;  // v² > g R: it does not fall onto the bead afterwards
     const double depth = std::pow(10, random.uniform(-12, -3)) * (random.uniform() < 0.5 ? 1 : -1);
     const auto a = through((1 - depth) * normal, along, gravity, random.uniform(0.05, 0.4), 1);
     if (overlap_free(a, 0.0L) < 1e-3L) continue;
@@ -184,12 +186,14 @@ TEST_CASE("spheres that rounding left overlapping meet at once if they approach,
 TEST_CASE("two grains in free flight: the closed form of two spheres on straight lines") {
   Random random(3, Purpose::start);
   for (int n = 0; n < 20000; ++n) {
-    // At contact the line between centres makes the angle `alpha` with the velocity: from there, back in time.
+    // At contact the line between centres makes the angle `alpha` with the velocity: from there, back in
+    // time.
     const Vec<3> e = direction<3>(random);
     Vec<3> s = direction<3>(random);
     s = s - dot(s, e) * e;
     s = (1 / norm(s)) * s;
-    const double alpha = random.uniform(0, 1.5), speed = random.uniform(0.1, 10), time = random.uniform(1e-3, 1e3);
+    const double alpha = random.uniform(0, 1.5), speed = random.uniform(0.1, 10),
+                 time = random.uniform(1e-3, 1e3);
     const Vec<3> at_contact = -std::cos(alpha) * e + std::sin(alpha) * s;
     const Approach<3> a{at_contact - (speed * time) * e, speed * e, {}, 1};
     CHECK(first_contact(a) == Approx(time).epsilon(1e-9));

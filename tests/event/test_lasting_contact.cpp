@@ -22,8 +22,8 @@ EventSetup<2> on_earth(const HardContact& contact, double contact_time) {
   return setup;
 }
 
-/// A ball of radius 1 and mass 3 that falls from 0.5 onto the top of a bead. Without a cut-off its bounces end at
-/// t = 1 + 2e/(1 − e).
+/// A ball of radius 1 and mass 3 that falls from 0.5 onto the top of a bead. Without a cut-off its bounces
+/// end at t = 1 + 2e/(1 − e).
 Grains<2> dropped() {
   Grains<2> grains;
   add_ball<2>(grains, {{0, 2.5}}, {}, 1, 3, true);
@@ -33,7 +33,8 @@ Grains<2> dropped() {
 
 }  // namespace
 
-TEST_CASE("without a cut-off, inelastic collapse stops the run, with the grain and the time of the closed form") {
+TEST_CASE(
+    "without a cut-off, inelastic collapse stops the run, with the grain and the time of the closed form") {
   for (const double e : {0.3, 0.5, 0.8}) {
     EventEngine<2> engine(dropped(), on_earth({laws::ConstantRestitution{e}, {}}, 0));
     const double end = 1 + 2 * e / (1 - e);
@@ -48,7 +49,8 @@ TEST_CASE("a restitution that rises to 1 at rest does not prevent the collapse")
   CHECK_THROWS_WITH(engine.advance_to(1'000'000), Catch::Contains("inelastic collapse"));
 }
 
-TEST_CASE("with t_c the ball comes to rest: one lasting contact that carries its weight, and no more impacts") {
+TEST_CASE(
+    "with t_c the ball comes to rest: one lasting contact that carries its weight, and no more impacts") {
   for (const double e : {0.0, 0.5, 0.8})
     for (const double t_c : {1e-2, 1e-3}) {
       CAPTURE(e, t_c);
@@ -73,7 +75,8 @@ TEST_CASE("with t_c the ball comes to rest: one lasting contact that carries its
 }
 
 TEST_CASE("a ball rolls over a bead and leaves it as the theory of rolling says; a smooth one slides") {
-  // On the bead: γ̈ = (m/m_eff) (g/L) sin γ, L = R + r = 2, until it lifts off where v² = g L cos γ; then it falls freely.
+  // On the bead: γ̈ = (m/m_eff) (g/L) sin γ, L = R + r = 2, until it lifts off where v² = g L cos γ; then it
+  // falls freely.
   const double L = 2, v_0 = 0.1, end = 6;
   for (const bool rolls : {true, false}) {
     const double k = (rolls ? 5.0 / 7 : 1) / L, dt = 1e-5;
@@ -94,14 +97,16 @@ TEST_CASE("a ball rolls over a bead and leaves it as the theory of rolling says;
       add_ball<2>(grains, {{0, L}}, {{v_0, 0}}, 1, 1, true);
       grains.spin[0][0] = rolls ? -v_0 : 0;
       add_ball<2>(grains, {{0, 0}}, {}, 1, 1, false);
-      EventEngine<2> engine(grains, on_earth({laws::ConstantRestitution{0.5}, {.friction = rolls ? 1e6 : 0}}, t_c));
+      EventEngine<2> engine(grains,
+                            on_earth({laws::ConstantRestitution{0.5}, {.friction = rolls ? 1e6 : 0}}, t_c));
       engine.collect_impacts(true);
       engine.advance_to(std::llround(end / 0.01));
       const double error = norm(engine.state().place(0) - expected);
       CAPTURE(rolls, t_c, error, engine.take_impacts().size());
       CHECK(error < 3 * t_c);
       CHECK(error < 0.02);
-      if (rolls) CHECK(engine.state().spin[0][0] == Approx(-v).epsilon(0.05));  // it lags where the force fades
+      if (rolls)
+        CHECK(engine.state().spin[0][0] == Approx(-v).epsilon(0.05));  // it lags where the force fades
     }
   }
 }
@@ -115,7 +120,8 @@ TEST_CASE("a ball wedged between two beads stays there, whatever friction takes"
       add_ball<2>(grains, {{1, 0}}, {}, 1, 1, false);
       const double t_c = 1e-3;
       CAPTURE(mu, e);
-      EventEngine<2> engine(grains, on_earth({laws::ConstantRestitution{e}, {.friction = mu, .beta = 0.34}}, t_c));
+      EventEngine<2> engine(grains,
+                            on_earth({laws::ConstantRestitution{e}, {.friction = mu, .beta = 0.34}}, t_c));
       engine.advance_to(1000);
       CHECK(engine.contacts().size() == 2);
       CHECK(engine.state().position[0][0] == Approx(0).margin(1e-3));

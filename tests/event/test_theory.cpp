@@ -28,7 +28,9 @@ double mean_velocity(const BallOnLine& ball, double transient, double duration) 
 
 }  // namespace
 
-TEST_CASE("with e_n = 0 and endless friction the mean velocity is that of the corrected theory, not the printed one") {
+TEST_CASE(
+    "with e_n = 0 and endless friction the mean velocity is that of the corrected theory, not the printed "
+    "one") {
   using theory::Version;
   for (const double phi : {1.75, 3.0})
     for (const double gap : {0.0, 0.1})
@@ -39,7 +41,8 @@ TEST_CASE("with e_n = 0 and endless friction the mean velocity is that of the co
         ball.contact = {laws::ConstantRestitution{0}, {.friction = 1e9, .beta = 0}};
         ball.contact_time = 5e-5;
         const double corrected = theory::steady_passage(line, theta, Version::corrected)->mean_velocity;
-        ball.velocity = 2 * corrected;  // it has no spin yet and falls on the first bead: that takes about half
+        ball.velocity =
+            2 * corrected;  // it has no spin yet and falls on the first bead: that takes about half
         const double v = mean_velocity(ball, 3, 1);
         const double printed = theory::steady_passage(line, theta, Version::printed)->mean_velocity;
         CAPTURE(phi, gap, std::sin(theta), printed);
@@ -48,7 +51,8 @@ TEST_CASE("with e_n = 0 and endless friction the mean velocity is that of the co
       }
 }
 
-TEST_CASE("with e_n = 0 and endless friction the ball stops below the corrected boundary AB, and moves above it") {
+TEST_CASE(
+    "with e_n = 0 and endless friction the ball stops below the corrected boundary AB, and moves above it") {
   for (const double phi : {1.75, 3.0}) {
     const theory::Line line{phi};
     const double boundary = theory::boundary_ab(line, theory::Version::corrected);

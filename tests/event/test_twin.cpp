@@ -14,12 +14,14 @@ struct Hit {
   std::size_t i, j;
 };
 
-/// The slow exact twin of EventEngine: after every collision it solves for every pair, in every image within `far`
-/// periods, and takes the earliest. No cells, no queue, no memory. No flight may be longer than `far` periods.
+/// The slow exact twin of EventEngine: after every collision it solves for every pair, in every image within
+/// `far` periods, and takes the earliest. No cells, no queue, no memory. No flight may be longer than `far`
+/// periods.
 template <int D>
 class Twin {
  public:
-  Twin(const Grains<D>& grains, const EventSetup<D>& setup, int far) : grains_(grains), setup_(setup), far_(far) {
+  Twin(const Grains<D>& grains, const EventSetup<D>& setup, int far)
+      : grains_(grains), setup_(setup), far_(far) {
     for (std::size_t i = 0; i < grains.size(); ++i) {
       Flight<D> f;
       f.place = grains.place(i);
@@ -33,14 +35,16 @@ class Twin {
   Hit next() {
     Hit first{std::numeric_limits<double>::infinity(), 0, 0};
     for (std::size_t i = 0; i < grains_.moving; ++i)
-      for (std::size_t j = i + 1; j < grains_.size(); ++j) each_image(0, {}, [&](const Vec<D>& image) {
-        const Flight<D>&a = flights_[i], &b = flights_[j];
-        const double from = std::max(a.time, b.time);
-        const Approach<D> approach{a.place_at(from) - b.place_at(from) + image, a.velocity_at(from) - b.velocity_at(from),
-                                   a.gravity - b.gravity, a.radius + b.radius};
-        const double t = from + first_contact(approach);
-        if (t < first.time) first = {t, i, j};
-      });
+      for (std::size_t j = i + 1; j < grains_.size(); ++j)
+        each_image(0, {}, [&](const Vec<D>& image) {
+          const Flight<D>&a = flights_[i], &b = flights_[j];
+          const double from = std::max(a.time, b.time);
+          const Approach<D> approach{a.place_at(from) - b.place_at(from) + image,
+                                     a.velocity_at(from) - b.velocity_at(from), a.gravity - b.gravity,
+                                     a.radius + b.radius};
+          const double t = from + first_contact(approach);
+          if (t < first.time) first = {t, i, j};
+        });
     hit(first);
     return first;
   }
@@ -66,8 +70,10 @@ class Twin {
     Flight<D>&a = flights_[at.i], &b = flights_[at.j];
     const Vec<D> way = setup_.domain.way(a.place, b.place);
     const Vec<D> n = (1 / norm(way)) * way;
-    laws::Collider<D> p{a.velocity, a.spin, a.radius, grains_.inverse_mass[at.i], grains_.inverse_inertia[at.i]};
-    laws::Collider<D> q{b.velocity, b.spin, b.radius, grains_.inverse_mass[at.j], grains_.inverse_inertia[at.j]};
+    laws::Collider<D> p{a.velocity, a.spin, a.radius, grains_.inverse_mass[at.i],
+                        grains_.inverse_inertia[at.i]};
+    laws::Collider<D> q{b.velocity, b.spin, b.radius, grains_.inverse_mass[at.j],
+                        grains_.inverse_inertia[at.j]};
     setup_.contact.tangential(n, setup_.contact.restitution, p, q);
     a.velocity = p.velocity, a.spin = p.spin, b.velocity = q.velocity, b.spin = q.spin;
   }
@@ -98,7 +104,8 @@ void compare(const Grains<D>& grains, EventSetup<D> setup, std::size_t most, int
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("a gas: the same collisions as the twin that tries all pairs, to the bit", "", ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a gas: the same collisions as the twin that tries all pairs, to the bit", "",
+                       ((int D), D), 2, 3) {
   for (const double spacing : {1.15, 1.7}) {
     Gas<D> gas(D == 2 ? 5 : 3, spacing);
     gas.setup.contact = {laws::ConstantRestitution{0.95}, {.friction = 0.3, .beta = 0.2}};

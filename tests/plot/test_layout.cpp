@@ -5,6 +5,7 @@
 
 #include "common/error.hpp"
 #include "plot/layout.hpp"
+#include "plot/marks.hpp"
 #include "plot/mathtext.hpp"
 
 using namespace chute::plot;
@@ -223,6 +224,7 @@ TEST_CASE("a legend covers no data, and goes above the frame when there is no ro
   for (std::size_t k = 2; k < panel.series.size(); ++k) panel.series[k].label = "";
   for (auto& s : panel.series)
     for (std::size_t i = 0; i < s.x.size(); ++i) s.y[i] = (i % 2 ? 1 : -1) * s.y[7];
+  panel.y.max = 1.1;  // or the range would grow instead
   const auto full = lay_out(figure);
   legend = find(full, Box::Kind::legend), frame = find(full, Box::Kind::frame);
   REQUIRE((legend && legend->rect.bottom < frame->rect.top));
@@ -243,6 +245,45 @@ TEST_CASE("panels that show the same series share one legend; others have their 
   REQUIRE(count() == 2);
   figure.legend = Legend::off;
   REQUIRE(count() == 0);
+}
+
+TEST_CASE("panels with legends of their own start their colours anew; a common legend never repeats one") {
+  Figure figure;
+  figure.width = 178;
+  figure.panels.resize(2);
+  figure.panels[0].series = {wave("mu=0.1", 1), wave("mu=0.3", 0.5)};
+  figure.panels[1].series = {wave("k=1", 1), wave("k=2", 0.5)};
+  for (auto& p : figure.panels)
+    for (auto& s : p.series) s.kind = Kind::line;
+  const auto& look = look_of(Style::journal);
+  const auto same = [](Color a, Color b) { return a.r == b.r && a.g == b.g && a.b == b.b; };
+  auto looks = assign_looks(figure, look);
+  REQUIRE(same(looks.at("k=1").color, looks.at("mu=0.1").color));
+  REQUIRE((looks.at("k=1").dash == 0 && looks.at("k=2").dash == 1));
+  figure.legend = Legend::common;
+  looks = assign_looks(figure, look);
+  REQUIRE_FALSE(same(looks.at("k=1").color, looks.at("mu=0.1").color));
+  REQUIRE(looks.at("k=2").dash == 3);
+  figure.panels[0].series.push_back(wave("mu=0.1 fit", 1));
+  looks = assign_looks(figure, look);
+  REQUIRE(same(looks.at("mu=0.1 fit").color, looks.at("mu=0.1").color));
+}
+
+TEST_CASE("a range that is ours to choose grows for a legend") {
+  Figure figure;
+  figure.panels.resize(1);
+  auto& panel = figure.panels[0];
+  for (int k = 0; k < 3; ++k) {
+    panel.series.push_back(wave("mu=0." + std::to_string(k), 0));
+    for (std::size_t i = 0; i < panel.series.back().x.size(); ++i)
+      panel.series.back().y[i] = i % 2 ? 1 - 0.1 * k : 0.1 * k;  // to and fro over the whole frame
+    panel.series.back().kind = Kind::line;
+  }
+  const auto grown = lay_out(figure);
+  REQUIRE(find(grown, Box::Kind::frame)->rect.contains(find(grown, Box::Kind::legend)->rect));
+  panel.y.max = 1;
+  const auto fixed = lay_out(figure);
+  REQUIRE(find(fixed, Box::Kind::legend)->rect.bottom < find(fixed, Box::Kind::frame)->rect.top);
 }
 
 TEST_CASE("what cannot be laid out is refused in one line") {

@@ -43,11 +43,14 @@ TEST_CASE("every theory figure has rows, comments for x and y, and finite number
   }
 }
 
-TEST_CASE("fig-4-17, fig-4-18: the printed theory is a few percent above the corrected one, larger balls are faster") {
+TEST_CASE(
+    "fig-4-17, fig-4-18: the printed theory is a few percent above the corrected one, larger balls are "
+    "faster") {
   const auto c = curves(compute_theory_4_17(quick));
   REQUIRE(c.size() == 6);
   for (const char* phi : {"Phi=1.75", "Phi=2.25", "Phi=3"}) {
-    const double ratio = at(c.at(std::string("theory ") + phi), 0.1) / at(c.at(std::string("theory corrected ") + phi), 0.1);
+    const double ratio =
+        at(c.at(std::string("theory ") + phi), 0.1) / at(c.at(std::string("theory corrected ") + phi), 0.1);
     CHECK(ratio > 1.01);
     CHECK(ratio < 1.08);
   }
@@ -62,7 +65,8 @@ TEST_CASE("fig-4-19: the linear formula is the better the larger Φ") {
   const auto c = curves(compute_fig_4_19(quick));
   double before = 1;
   for (const char* phi : {"Phi=1.75", "Phi=2.25", "Phi=3"}) {
-    const double off = at(c.at(std::string("linear ") + phi), 0.1) / at(c.at(std::string("exact ") + phi), 0.1) - 1;
+    const double off =
+        at(c.at(std::string("linear ") + phi), 0.1) / at(c.at(std::string("exact ") + phi), 0.1) - 1;
     CHECK(off > 0);
     CHECK(off < before);
     before = off;

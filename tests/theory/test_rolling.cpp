@@ -10,7 +10,8 @@ using namespace chute::theory;
 
 namespace {
 
-/// The ball's way over one bead, integrated: γ̈ = (m/m_eff) g/(R+r) sin(γ + θ), (4.33), with RK4 in time until γ_max.
+/// The ball's way over one bead, integrated: γ̈ = (m/m_eff) g/(R+r) sin(γ + θ), (4.33), with RK4 in time until
+/// γ_max.
 struct Rolling {
   double k, theta, gamma_max;
   struct Exit {
@@ -68,8 +69,8 @@ Steady roll(const Line& line, double theta, Impact impact) {
   return {0, 0, false};
 }
 
-/// A ball that rolls at v meets a bead whose tangent is turned by 2γ, and rolls on it: nothing but the force in the
-/// contact acts, so the angular momentum about the contact is the same before and after.
+/// A ball that rolls at v meets a bead whose tangent is turned by 2γ, and rolls on it: nothing but the force
+/// in the contact acts, so the angular momentum about the contact is the same before and after.
 double stick(double v, double gamma, double inertia) {
   const double m = 1, R = 1, I = inertia * m * R * R, omega = v / R;
   const double before = m * R * v * std::cos(2 * gamma) + I * omega;
@@ -118,7 +119,8 @@ TEST_CASE("the corrected ratio for a solid sphere is (5 cos 2γ + 2)/7, and less
   }
 }
 
-TEST_CASE("the boundary AB is where a ball just gets over: a slower incline stops it, a steeper one does not") {
+TEST_CASE(
+    "the boundary AB is where a ball just gets over: a slower incline stops it, a steeper one does not") {
   for (const double phi : {1.75, 2.25, 3.0, 6.0})
     for (const Version version : {Version::printed, Version::corrected}) {
       const Line line{phi, 0.1};
@@ -127,9 +129,11 @@ TEST_CASE("the boundary AB is where a ball just gets over: a slower incline stop
       CHECK_FALSE(steady_passage(line, boundary * (1 - 1e-9), version));
       CHECK(steady_passage(line, boundary * (1 + 1e-9), version));
       const auto moves = [&](double theta) {
-        return roll(line, theta, [&](double v, double gamma) {
-                 return version == Version::printed ? keep_energy(v, gamma, 0.4) : stick(v, gamma, 0.4);
-               }).moves;
+        return roll(line, theta,
+                    [&](double v, double gamma) {
+                      return version == Version::printed ? keep_energy(v, gamma, 0.4) : stick(v, gamma, 0.4);
+                    })
+            .moves;
       };
       CHECK_FALSE(moves(boundary - 1e-4));
       CHECK(moves(boundary + 1e-4));
@@ -137,8 +141,8 @@ TEST_CASE("the boundary AB is where a ball just gets over: a slower incline stop
 }
 
 TEST_CASE("on a disordered line the mean gap drives and the largest must be overcome") {
-  // The energy balance written out: the steady speed of the mean gap, on the way to the larger γ_max, through the
-  // impact there, is just enough to climb to γ = −θ.
+  // The energy balance written out: the steady speed of the mean gap, on the way to the larger γ_max, through
+  // the impact there, is just enough to climb to γ = −θ.
   const double mean = 0.1, largest = 0.2;
   for (const double phi : {1.75, 3.0})
     for (const Version version : {Version::printed, Version::corrected}) {
@@ -148,7 +152,8 @@ TEST_CASE("on a disordered line the mean gap drives and the largest must be over
       const double gamma = largest_angle(line), wide = largest_angle(widest), e = impact_ratio(line, version);
       const double drop = g * reach * (std::cos(theta - gamma) - std::cos(theta + gamma));
       const double at_gamma = drop / (m_eff / 2 * (1 - e * e));  // v² in the steady state of the mean gap
-      const double at_wide = at_gamma + 2 / m_eff * g * reach * (std::cos(theta + gamma) - std::cos(theta + wide));
+      const double at_wide =
+          at_gamma + 2 / m_eff * g * reach * (std::cos(theta + gamma) - std::cos(theta + wide));
       const double after = std::pow(impact_ratio(widest, version), 2) * at_wide;
       CHECK(m_eff / 2 * after == Approx(g * reach * (1 - std::cos(theta - wide))).epsilon(1e-10));
       CHECK(theta > boundary_ab(line, version));
@@ -162,10 +167,12 @@ TEST_CASE("the linear formula is right to O(sin²γ): its error shrinks with 1/�
     for (const double phi : {20.0, 40.0, 80.0, 160.0}) {
       const Line line{phi};
       const double theta = 0.05;
-      const double exact = steady_passage(line, theta, version)->mean_velocity / std::sqrt(line.radius * line.gravity);
-      const double error = std::abs(linear_velocity(line, theta, version) /
-                                        std::sqrt(line.radius * line.gravity) - exact);
-      if (before > 0) CHECK(before / error == Approx(4).margin(0.35));  // v̄ ∝ 1/√c, relative error c^{3/2}: O(c)
+      const double exact =
+          steady_passage(line, theta, version)->mean_velocity / std::sqrt(line.radius * line.gravity);
+      const double error =
+          std::abs(linear_velocity(line, theta, version) / std::sqrt(line.radius * line.gravity) - exact);
+      if (before > 0)
+        CHECK(before / error == Approx(4).margin(0.35));  // v̄ ∝ 1/√c, relative error c^{3/2}: O(c)
       before = error;
     }
   }

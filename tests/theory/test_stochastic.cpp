@@ -10,7 +10,9 @@
 using namespace chute;
 using namespace chute::theory;
 
-TEST_CASE("an impact: v_n is reversed by e_n, v_t loses what (4.8) or (4.9) says, and never more than the sticking value") {
+TEST_CASE(
+    "an impact: v_n is reversed by e_n, v_t loses what (4.8) or (4.9) says, and never more than the sticking "
+    "value") {
   for (const Friction law : {Friction::published, Friction::without_rotation})
     for (const double gamma : {-0.3, 0.0, 0.2})
       for (const double psi : {0.05, 0.5, 1.5, 8.0}) {
@@ -45,7 +47,8 @@ TEST_CASE("the drawn angles fill (4.16) to φ, with an even impact offset") {
   }
 }
 
-TEST_CASE("with the next bead in the way, angles are those at which a straight flight meets a line of beads") {
+TEST_CASE(
+    "with the next bead in the way, angles are those at which a straight flight meets a line of beads") {
   StochasticModel model;
   model.shadowed = true;
   const double r = model.bead_radius, R = model.ball_radius, phi = 0.6;
@@ -54,7 +57,8 @@ TEST_CASE("with the next bead in the way, angles are those at which a straight f
   for (int k = 0; k < 1000; ++k) {
     const double gamma = model.contact_angle(v, (k + 0.5) / 1000);
     least = std::min(least, gamma), most = std::max(most, gamma);
-    // No other bead is overlapped on the way: distance of the line of flight to bead m, until contact with bead 0
+    // No other bead is overlapped on the way: distance of the line of flight to bead m, until contact with
+    // bead 0
     for (int m = -20; m <= 20; ++m) {
       const Vec<2> centre{{2 * r * m, 0}}, contact{{(R + r) * std::sin(gamma), (R + r) * std::cos(gamma)}};
       const double back = std::max(0.0, dot(contact - centre, v));  // how far before contact it is nearest
@@ -90,7 +94,8 @@ TEST_CASE("flights: back to the same height for γ < 0, over to the next bead fo
   }
 }
 
-TEST_CASE("as published: a steady state over a wide range of angles, linear in sin θ, faster for larger balls") {
+TEST_CASE(
+    "as published: a steady state over a wide range of angles, linear in sin θ, faster for larger balls") {
   const auto mean = [](double radius, double sine) {
     StochasticModel model;
     model.ball_radius = radius;
@@ -137,7 +142,8 @@ StochasticEngine engine(double velocity = 0.3, double sine = 0.2) {
 }
 }  // namespace
 
-TEST_CASE("as a run: the account closes, the place is the way flown, a restored run goes on to the same bytes") {
+TEST_CASE(
+    "as a run: the account closes, the place is the way flown, a restored run goes on to the same bytes") {
   auto straight = engine(), first = engine(), second = engine();
   straight.collect_impacts(true);
   straight.advance_to(2000);

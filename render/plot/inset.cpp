@@ -1,0 +1,57 @@
+#include "plot/inset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "common/error.hpp"
+#include "plot/axes.hpp"
+#include "plot/mathtext.hpp"
+
+namespace chute::plot {
+
+void draw_inset(Layout& out, const Inset& inset, const Rect& frame, int panel, const Look& look,
+                const std::map<std::string, SeriesLook>& looks, Occupancy& occupied) {
+  const double width = inset.width * frame.width(), height = inset.height * frame.height();
+  std::optional<Point> at;
+  if (const auto room = occupied.room_for(width, height, inset_from_frame, inset.place)) at = room->at;
+  if (!at && in_corner(inset.place)) at = occupied.corner(width, height, inset_from_frame, inset.place);
+  if (!at) {  // the least bad corner
+    double least = 2;
+    for (Place place : {Place::top_right, Place::top_left, Place::bottom_right, Place::bottom_left}) {
+      const Point p = occupied.corner(width, height, inset_from_frame, place);
+      const double covered = occupied.covered({p.x, p.y, p.x + width, p.y + height});
+      if (covered < least) least = covered, at = p;
+    }
+  }
+  const Rect outer{at->x, at->y, at->x + width, at->y + height};
+  const auto extents = extents_of(inset.plot);
+  const double shrink = std::max(0.8, smallest_type / look.tick_size);
+  const TextSizes sizes{shrink * look.tick_size, shrink * look.label_size, 0.8 * gap_of(look)};
+  Axes axes(inset.plot, span_of(inset.plot.x, extents.x), span_of(inset.plot.y, extents.y), sizes, true,
+            true);
+  Margins m;
+  Rect inner;
+  for (int pass = 0; pass < 5; ++pass) {
+    inner = {outer.left + m.left, outer.top + m.top, outer.right - m.right, outer.bottom - m.bottom};
+    if (inner.width() < 3 * sizes.tick || inner.height() < 2 * sizes.tick)
+      throw InputError(fmt::format("an inset of {} by {} of its panel is too small for its labels",
+                                   inset.width, inset.height));
+    m.widen(axes.fit(inner.width(), inner.height()));
+  }
+  inner = {outer.left + m.left, outer.top + m.top, outer.right - m.right, outer.bottom - m.bottom};
+  Path ground;
+  out.list.fill(ground.rectangle(outer), look.paper);
+  Look small = look;
+  small.marker_size *= 0.75, small.line_width *= 0.85, small.cap *= 0.75;
+  Occupancy inside(inner);
+  Painter painter{out.list, small, inside};
+  draw_marks(painter, Frame{inner, axes.x(), axes.y()}, inset.plot, looks);
+  std::vector<Box> own;
+  axes.draw(out.list, look, inner, m, panel, own);
+  out.boxes.push_back({Box::Kind::inset, outer, panel, ""});
+  occupied.mark(outer);
+}
+
+}  // namespace chute::plot
