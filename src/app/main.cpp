@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   app::add_info(app);
   app::add_render(app);
   app::add_figure(app);
+  app::add_compare(app);
 
   try {
     app.parse(argc, argv);

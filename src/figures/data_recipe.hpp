@@ -22,6 +22,7 @@ enum class Extract {
 struct Curve {
   std::string panel, series;
   std::vector<std::string> set;  ///< key=value, on top of the recipe's
+  std::vector<std::string> runs; ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;
   std::string column;            ///< what is drawn (y; x of a histogram)
   std::string against;           ///< scatter: the column for x
@@ -37,6 +38,7 @@ struct Curve {
 struct DataRecipe {
   std::optional<std::string> scene;      ///< scene file, relative to the recipe
   std::optional<std::string> compute;    ///< instead: a computation that is no run of a scene, by name
+  bool runs = false;                     ///< instead: every curve names its `runs`
   std::optional<std::string> table;      ///< instead: a CSV file as figures have it, relative to the recipe
   std::vector<std::string> set;          ///< key=value for every run
   std::vector<std::string> quick;        ///< and with --quick

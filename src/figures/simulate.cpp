@@ -100,9 +100,30 @@ void run_all(const std::vector<Job>& jobs, int count, const std::string& command
 
 }  // namespace
 
+namespace {
+
+/// The table of a recipe whose curves name runs that are there.
+FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
+  FigureTable table;
+  table.comments = {fmt::format("x: {}", recipe.x), fmt::format("y: {}", recipe.y)};
+  for (const auto& note : recipe.notes) table.comments.push_back(note);
+  for (const auto& curve : recipe.curves) {
+    std::vector<fs::path> runs;
+    for (const auto& run : curve.runs) runs.push_back(recipe_file.parent_path() / run);
+    table.comments.push_back(fmt::format("{}{}: from {}", curve.panel.empty() ? "" : curve.panel + " ", curve.series,
+                                         fmt::join(curve.runs, ", ")));
+    const auto rows = extract(curve, runs);
+    table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+  }
+  return table;
+}
+
+}  // namespace
+
 FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work,
                      const FigureContext& context, const std::string& command_line,
                      const std::function<bool(double)>& progress) {
+  if (recipe.runs) return from_runs(recipe, recipe_file);
   const Plan plan = plan_runs(recipe, recipe_file, work, context.quick);
   run_all(plan.jobs, context.jobs, command_line, progress);
   FigureTable table;

@@ -7,7 +7,7 @@
 
 namespace chute::figures {
 
-/// Makes a figure's table: simulates what it needs, in run directories under `work` that are used again if they hold
+/// Makes a figure's table, from runs that the curves name, or else from a scene: simulates what it needs, in run directories under `work` that are used again if they hold
 /// the finished run of the same scene by the same build, and extracts the rows. `recipe_file` anchors relative paths.
 FigureTable simulate(const DataRecipe& recipe, const std::filesystem::path& recipe_file,
                      const std::filesystem::path& work, const FigureContext& context,
