@@ -63,7 +63,8 @@ using Computation = std::function<figures::FigureTable(const figures::FigureCont
 /// The built-in computation of that name. InputError at the recipe's key if there is none.
 const Computation& find_computation(const std::string& name, const fs::path& recipe) {
   std::vector<std::string> known;
-  for (const auto* list : {&experiments::computed_figures(), &theory::theory_figures(), &event::event_figures()}) {
+  for (const auto* list :
+       {&experiments::computed_figures(), &theory::theory_figures(), &event::event_figures()}) {
     if (const auto found = list->find(name); found != list->end()) return found->second;
     for (const auto& [id, computation] : *list) known.push_back(id);
   }
@@ -96,8 +97,9 @@ figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, cons
   if (recipe.data.table) return read_rows(file.parent_path() / *recipe.data.table);
   if (recipe.data.compute) {
     auto table = find_computation(*recipe.data.compute, file)(context);
-    table.comments.push_back(fmt::format("made by chute {} ({}){}", run::version, run::commit,
-                                         context.quick ? "; quick: a cheaper computation than the full figure's" : ""));
+    table.comments.push_back(
+        fmt::format("made by chute {} ({}){}", run::version, run::commit,
+                    context.quick ? "; quick: a cheaper computation than the full figure's" : ""));
     return table;
   }
   return figures::simulate(recipe.data, file, directory / "runs", context, command_line(), progress);
@@ -118,10 +120,12 @@ std::vector<KnownFigure> known_figures() {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(scenes_folder(), error)) {
     const auto id = entry.path().stem().string();
-    if (entry.path().extension() != ".toml" || !(id.starts_with("fig-") || id.starts_with("table-"))) continue;
+    if (entry.path().extension() != ".toml" || !(id.starts_with("fig-") || id.starts_with("table-")))
+      continue;
     known.push_back({id, read_recipe(entry.path()).title, entry.path()});
   }
-  if (error) throw InputError(scenes_folder().string() + ": cannot read the folder of recipes: " + error.message());
+  if (error)
+    throw InputError(scenes_folder().string() + ": cannot read the folder of recipes: " + error.message());
   std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return known;
 }
@@ -149,9 +153,10 @@ void make_figure(const fs::path& file, const fs::path& directory, const figures:
   // The picture is drawn from the CSV, as any reader of it would see the numbers.
   const auto figure = plot::figure_from(recipe.plot, read::read_table(beside(".csv")));
   const auto list = plot::lay_out(figure).list;
-  const plot::Metadata metadata{{"Title", recipe.title},
-                                {"Creator", fmt::format("chute {} ({})", run::version, run::commit)},
-                                {"Subject", fmt::format("{}{}", file.filename().string(), context.quick ? ", quick" : "")}};
+  const plot::Metadata metadata{
+      {"Title", recipe.title},
+      {"Creator", fmt::format("chute {} ({})", run::version, run::commit)},
+      {"Subject", fmt::format("{}{}", file.filename().string(), context.quick ? ", quick" : "")}};
   plot::draw_png(list, beside(".png"), plot::default_dpi, metadata);
   plot::draw_pdf(list, beside(".pdf"), metadata);
   plot::draw_svg(list, beside(".svg"), metadata);

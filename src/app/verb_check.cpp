@@ -13,8 +13,8 @@ void check(const std::string& file, const std::vector<std::string>& settings) {
   scene::make_start(scene);  // says if the grains do not fit
   fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, scene::to_toml(scene));
   for (const auto& fact : run::facts(scene)) {
-    const auto value = fact.name == "cost" ? duration_text(fact.value)
-                                           : fmt::format("{:.6g} {}", fact.value, fact.unit);
+    const auto value =
+        fact.name == "cost" ? duration_text(fact.value) : fmt::format("{:.6g} {}", fact.value, fact.unit);
     fmt::print("# {:<16} {:<26} {}\n", fact.name, value, fact.meaning);
   }
 }

@@ -26,7 +26,8 @@ void run(const FigureArguments& arguments) {
     for (const auto& figure : known_figures()) fmt::print("{:<12} {}\n", figure.id, figure.title);
     return;
   }
-  if (arguments.figures.empty()) throw InputError("figure: name a figure, a recipe file, or all; --list shows them");
+  if (arguments.figures.empty())
+    throw InputError("figure: name a figure, a recipe file, or all; --list shows them");
   std::vector<std::filesystem::path> recipes;
   for (const auto& name : arguments.figures) {
     if (name != "all") {
@@ -47,14 +48,16 @@ void run(const FigureArguments& arguments) {
       progress.show(part);
       return stop_asked == 0;
     });
-    if (!arguments.quiet) fmt::print(stderr, "{}: {}/{}.png, .pdf, .svg, .csv\n", id, arguments.directory, id);
+    if (!arguments.quiet)
+      fmt::print(stderr, "{}: {}/{}.png, .pdf, .svg, .csv\n", id, arguments.directory, id);
   }
 }
 
 }  // namespace
 
 void add_figure(CLI::App& app) {
-  auto* verb = app.add_subcommand("figure", "Make figures: simulate what they need, write PNG, PDF, SVG and CSV");
+  auto* verb =
+      app.add_subcommand("figure", "Make figures: simulate what they need, write PNG, PDF, SVG and CSV");
   auto a = std::make_shared<FigureArguments>();
   verb->add_option("figures", a->figures, "ids such as fig-4-10, recipe files (TOML), or all");
   verb->add_option("-o,--output", a->directory, "folder for the results")->capture_default_str();

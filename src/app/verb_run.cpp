@@ -45,8 +45,8 @@ void run(const RunArguments& arguments) {
     throw WorkError(fmt::format("stopped; go on with: chute run {} -o {} --resume", arguments.scene,
                                 options.directory.string()));
   if (!arguments.quiet)
-    fmt::print(stderr, "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n", result.steps,
-               duration_text(result.seconds),
+    fmt::print(stderr, "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n",
+               result.steps, duration_text(result.seconds),
                static_cast<double>(result.steps * scene.grains.count) / result.seconds / 1e6,
                options.directory.string());
 }

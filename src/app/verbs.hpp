@@ -1,7 +1,8 @@
 #pragma once
 #include <CLI/CLI.hpp>
 
-/// Each verb adds itself to the command line, with its options, help and an example, and does its work in a callback.
+/// Each verb adds itself to the command line, with its options, help and an example, and does its work in a
+/// callback.
 namespace chute::app {
 
 void add_run(CLI::App& app);

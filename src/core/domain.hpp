@@ -6,7 +6,8 @@
 
 namespace chute {
 
-/// Where grains live: periodic with the given length in some directions, unbounded (infinite length) in others.
+/// Where grains live: periodic with the given length in some directions, unbounded (infinite length) in
+/// others.
 template <int D>
 struct Domain {
   Vec<D> lower{};
@@ -18,9 +19,9 @@ struct Domain {
 
   bool periodic(int k) const { return length[k] < std::numeric_limits<double>::infinity(); }
 
-  /// Shortest way from one place to another, in direction k. Written with two selections instead of a rounding, so
-  /// that it costs two masked additions in a vector loop and is exact where there is no period. Holds for places
-  /// that are at most half a period outside the domain.
+  /// Shortest way from one place to another, in direction k. Written with two selections instead of a
+  /// rounding, so that it costs two masked additions in a vector loop and is exact where there is no period.
+  /// Holds for places that are at most half a period outside the domain.
   static constexpr double nearest_image(double d, double full, double half) {
     const double folded = d > half ? d - full : d;
     return folded < -half ? folded + full : folded;

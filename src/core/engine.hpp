@@ -7,8 +7,8 @@
 
 namespace chute {
 
-/// Where the energy is and where it went, since the start of the run. What gravity put in is what is stored plus what
-/// was dissipated; `residual` is what the integration got wrong.
+/// Where the energy is and where it went, since the start of the run. What gravity put in is what is stored
+/// plus what was dissipated; `residual` is what the integration got wrong.
 struct EnergyAccount {
   double translation = 0;   ///< ½ Σ m v²
   double rotation = 0;      ///< ½ Σ I ω²
@@ -22,16 +22,16 @@ struct EnergyAccount {
   double residual() const { return gravity_work - (stored() - start) - normal_loss - shear_loss; }
 };
 
-/// The begin of a contact, as it was just before any force acted. `bead` is the grain that was hit: the fixed one, or
-/// of two moving grains the one with the lower id.
+/// The begin of a contact, as it was just before any force acted. `bead` is the grain that was hit: the fixed
+/// one, or of two moving grains the one with the lower id.
 struct Impact {
   double time;
   std::int64_t grain, bead;
   std::array<double, 3> place;  ///< where the surfaces met
-  double gamma;                 ///< angle between the incline's normal and the line from bead to grain; > 0 downhill
-  double phi;                   ///< azimuth of that line about the incline's normal; 0 or ±π side in 3D, 0 in 2D
-  double v_n;                   ///< relative normal velocity (1.13), < 0 on approach
-  double v_t;                   ///< relative translational velocity along the surface, downhill positive in 2D
+  double gamma;  ///< angle between the incline's normal and the line from bead to grain; > 0 downhill
+  double phi;    ///< azimuth of that line about the incline's normal; 0 or ±π side in 3D, 0 in 2D
+  double v_n;    ///< relative normal velocity (1.13), < 0 on approach
+  double v_t;    ///< relative translational velocity along the surface, downhill positive in 2D
 };
 
 /// A contact at one instant.
@@ -45,8 +45,8 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// Moves on to the given number of steps since the start. WorkError if the run leaves physics (NaN, a grain lost,
-  /// too deep an overlap): it says which grain and when.
+  /// Moves on to the given number of steps since the start. WorkError if the run leaves physics (NaN, a grain
+  /// lost, too deep an overlap): it says which grain and when.
   virtual void advance_to(std::int64_t step) = 0;
 
   virtual std::int64_t step() const = 0;

@@ -16,10 +16,8 @@ struct CacheAligned {
   CacheAligned() = default;
   template <class U>
   CacheAligned(const CacheAligned<U>&) {}
-  T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64}));
-  }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
   bool operator==(const CacheAligned&) const = default;
 };
 
@@ -30,14 +28,15 @@ using Array = std::vector<double, CacheAligned<double>>;
 template <int D>
 inline constexpr int turns = D == 2 ? 1 : 3;
 
-/// The state of all grains, one array per field. Moving grains come first, [0, moving); fixed ones (the bed) follow.
-/// A grain's index is its id in every file. 2D spins count anticlockwise (x downhill, y up from the bed), so a grain
-/// that rolls downhill spins negatively.
+/// The state of all grains, one array per field. Moving grains come first, [0, moving); fixed ones (the bed)
+/// follow. A grain's index is its id in every file. 2D spins count anticlockwise (x downhill, y up from the
+/// bed), so a grain that rolls downhill spins negatively.
 template <int D>
 struct Grains {
   std::size_t moving = 0;
   std::array<Array, D> position, velocity;
-  std::array<Array, turns<D>> angle, spin;  ///< 3D: `angle` is the time integral of the spin, component by component
+  std::array<Array, turns<D>> angle,
+      spin;  ///< 3D: `angle` is the time integral of the spin, component by component
   Array radius, mass, inertia;
   Array inverse_mass, inverse_inertia;    ///< 0 for fixed grains
   std::array<std::vector<int>, D> wraps;  ///< times each moving grain went once around a periodic direction
@@ -48,7 +47,8 @@ struct Grains {
   Vec<D> speed(std::size_t i) const { return gather(velocity, i); }
 
   void reserve(std::size_t count) {
-    for (int k = 0; k < D; ++k) position[k].reserve(count), velocity[k].reserve(count), wraps[k].reserve(count);
+    for (int k = 0; k < D; ++k)
+      position[k].reserve(count), velocity[k].reserve(count), wraps[k].reserve(count);
     for (int k = 0; k < turns<D>; ++k) angle[k].reserve(count), spin[k].reserve(count);
     for (auto* a : {&radius, &mass, &inertia, &inverse_mass, &inverse_inertia}) a->reserve(count);
   }
@@ -78,8 +78,8 @@ struct Grains {
   }
 };
 
-/// What observers and writers see of the grains, whatever the dimension and the engine: spans that stay valid until
-/// the engine moves on. Components that do not exist in 2D are empty.
+/// What observers and writers see of the grains, whatever the dimension and the engine: spans that stay valid
+/// until the engine moves on. Components that do not exist in 2D are empty.
 struct GrainsView {
   int dimensions = 2;
   double time = 0;
@@ -87,8 +87,9 @@ struct GrainsView {
   std::array<std::span<const double>, 3> position, velocity, force;
   std::array<std::span<const double>, 3> angle, spin;  ///< in 2D only [0], about the plane's normal
   std::span<const double> radius, mass, inertia;
-  std::array<std::span<const int>, 3> wraps;  ///< of the moving grains; with `period`, the way around the domain
-  std::array<double, 3> period{};             ///< 0 where the domain is not periodic
+  std::array<std::span<const int>, 3>
+      wraps;                       ///< of the moving grains; with `period`, the way around the domain
+  std::array<double, 3> period{};  ///< 0 where the domain is not periodic
 
   std::size_t size() const { return radius.size(); }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-/// Loops over arrays, compiled several times and chosen once by what the processor can do, so that one binary is fast
-/// everywhere. A kernel is a small struct that names the arrays it reads and writes, with one loop in operator().
-/// Contraction is off and the loops hold no reductions over floating-point numbers, so all variants give the same
-/// bytes; a test holds them to that.
+/// Loops over arrays, compiled several times and chosen once by what the processor can do, so that one binary
+/// is fast everywhere. A kernel is a small struct that names the arrays it reads and writes, with one loop in
+/// operator(). Contraction is off and the loops hold no reductions over floating-point numbers, so all
+/// variants give the same bytes; a test holds them to that.
 namespace chute {
 
 enum class Isa { baseline, avx2, avx512 };
@@ -39,9 +39,12 @@ template <class Kernel>
 template <class Kernel>
 void run_kernel(Isa isa, const Kernel& kernel) {
   switch (isa) {
-    case Isa::avx512: return detail::run_avx512(kernel);
-    case Isa::avx2: return detail::run_avx2(kernel);
-    case Isa::baseline: return detail::run_baseline(kernel);
+    case Isa::avx512:
+      return detail::run_avx512(kernel);
+    case Isa::avx2:
+      return detail::run_avx2(kernel);
+    case Isa::baseline:
+      return detail::run_baseline(kernel);
   }
 }
 

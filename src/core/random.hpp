@@ -7,12 +7,12 @@
 
 namespace chute {
 
-/// What a stream of random numbers is for. Each purpose has a stream of its own, so that asking one for more numbers
-/// does not change the others: the same seed gives the same bed under another start.
+/// What a stream of random numbers is for. Each purpose has a stream of its own, so that asking one for more
+/// numbers does not change the others: the same seed gives the same bed under another start.
 enum class Purpose : std::uint32_t { bed = 1, sizes = 2, start = 3, stochastic = 4, bootstrap = 5 };
 
-/// A stream of random numbers fixed by a scene's seed and a purpose. Boost's distributions, unlike the standard
-/// library's, are the same numbers on every platform.
+/// A stream of random numbers fixed by a scene's seed and a purpose. Boost's distributions, unlike the
+/// standard library's, are the same numbers on every platform.
 class Random {
  public:
   Random(std::uint64_t seed, Purpose purpose) {

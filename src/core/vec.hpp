@@ -4,8 +4,8 @@
 
 namespace chute {
 
-/// A point or vector in D dimensions. A plain aggregate: the compiler takes it apart into scalars and so into vector
-/// lanes, which Eigen's fixed-size types, with SIMD of their own, prevent in the loops over contacts.
+/// A point or vector in D dimensions. A plain aggregate: the compiler takes it apart into scalars and so into
+/// vector lanes, which Eigen's fixed-size types, with SIMD of their own, prevent in the loops over contacts.
 template <int D>
 struct Vec {
   std::array<double, D> c{};

@@ -11,7 +11,8 @@ static void describe(TomlReader& a, Curve& curve) {
   a.required("series", curve.series);
   a.value("set", curve.set);
   a.value("runs", curve.runs);
-  a.check(curve.runs.empty() || curve.set.empty(), "set", "changes a scene; runs that are there cannot be changed");
+  a.check(curve.runs.empty() || curve.set.empty(), "set",
+          "changes a scene; runs that are there cannot be changed");
   a.choice("extract", curve.extract, extract_words);
   a.required("column", curve.column);
   const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
@@ -35,7 +36,8 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.value("table", recipe.table);
   const int sources = recipe.scene.has_value() + recipe.compute.has_value() + recipe.table.has_value();
   a.check(sources <= 1, "scene",
-          "give one of scene (simulate), compute (a built-in computation), table (a CSV file), or curves with runs");
+          "give one of scene (simulate), compute (a built-in computation), table (a CSV file), or curves "
+          "with runs");
   if (recipe.compute || recipe.table) return;
   a.value("set", recipe.set);
   a.value("quick", recipe.quick);
@@ -48,8 +50,9 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.check(!recipe.curves.empty(), "curve", "a figure needs at least one [[data.curve]]");
   recipe.runs = !recipe.scene;
   for (const auto& curve : recipe.curves)
-    a.check(curve.runs.empty() == !recipe.runs, "curve",
-            recipe.runs ? "without a scene every curve names its runs" : "give either a scene or runs, not both");
+    a.check(
+        curve.runs.empty() == !recipe.runs, "curve",
+        recipe.runs ? "without a scene every curve names its runs" : "give either a scene or runs, not both");
 }
 
 }  // namespace chute::figures

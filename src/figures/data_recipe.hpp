@@ -22,29 +22,30 @@ enum class Extract {
 struct Curve {
   std::string panel, series;
   std::vector<std::string> set;  ///< key=value, on top of the recipe's
-  std::vector<std::string> runs; ///< instead of a scene: run directories that are there, relative to the recipe
+  std::vector<std::string>
+      runs;  ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;
-  std::string column;            ///< what is drawn (y; x of a histogram)
-  std::string against;           ///< scatter: the column for x
-  std::int64_t bins = 100;       ///< histogram
+  std::string column;                        ///< what is drawn (y; x of a histogram)
+  std::string against;                       ///< scatter: the column for x
+  std::int64_t bins = 100;                   ///< histogram
   std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
-  double fold = 0;               ///< histogram, scatter: take angles modulo this; 0: as they are
-  bool absolute = false;         ///< histogram, scatter: the column's absolute value
-  std::int64_t most = 20000;     ///< return_map, scatter: no more dots than this (the last ones)
-  bool fine = false;             ///< profile: the fine bins
+  double fold = 0;                           ///< histogram, scatter: take angles modulo this; 0: as they are
+  bool absolute = false;                     ///< histogram, scatter: the column's absolute value
+  std::int64_t most = 20000;                 ///< return_map, scatter: no more dots than this (the last ones)
+  bool fine = false;                         ///< profile: the fine bins
 };
 
 /// The data half of a figure recipe: [data] and [[data.curve]].
 struct DataRecipe {
-  std::optional<std::string> scene;      ///< scene file, relative to the recipe
-  std::optional<std::string> compute;    ///< instead: a computation that is no run of a scene, by name
-  bool runs = false;                     ///< instead: every curve names its `runs`
-  std::optional<std::string> table;      ///< instead: a CSV file as figures have it, relative to the recipe
-  std::vector<std::string> set;          ///< key=value for every run
-  std::vector<std::string> quick;        ///< and with --quick
+  std::optional<std::string> scene;    ///< scene file, relative to the recipe
+  std::optional<std::string> compute;  ///< instead: a computation that is no run of a scene, by name
+  bool runs = false;                   ///< instead: every curve names its `runs`
+  std::optional<std::string> table;    ///< instead: a CSV file as figures have it, relative to the recipe
+  std::vector<std::string> set;        ///< key=value for every run
+  std::vector<std::string> quick;      ///< and with --quick
   std::int64_t seeds = 1, quick_seeds = 1;  ///< runs per curve, with seeds 1, 2, …
-  std::string x, y;                      ///< what x and y are, with units: comments of the CSV
-  std::vector<std::string> notes;        ///< further comments
+  std::string x, y;                         ///< what x and y are, with units: comments of the CSV
+  std::vector<std::string> notes;           ///< further comments
   std::vector<Curve> curves;
 };
 

@@ -19,7 +19,8 @@ namespace {
 /// The impacts of one run, in order of time.
 class Impacts {
  public:
-  explicit Impacts(const fs::path& run) : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {}
+  explicit Impacts(const fs::path& run)
+      : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {}
 
   const std::vector<double>& column(std::string_view name) const {
     for (const auto& array : points_.point_arrays)
@@ -44,10 +45,12 @@ std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> r
   std::vector<double> values;
   for (const auto& run : runs) {
     const Impacts impacts(run);
-    for (double v : impacts.column(curve.column)) values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));
+    for (double v : impacts.column(curve.column))
+      values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));
   }
   if (values.empty())
-    throw WorkError(fmt::format("series {}: no impacts were recorded, so there is no histogram", curve.series));
+    throw WorkError(
+        fmt::format("series {}: no impacts were recorded, so there is no histogram", curve.series));
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double low = curve.range ? (*curve.range)[0] : *least, high = curve.range ? (*curve.range)[1] : *most;
   const auto bins = static_cast<std::size_t>(curve.bins);
@@ -94,7 +97,8 @@ std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> run
     const Impacts impacts(run);
     const auto &x = impacts.column(curve.against), &y = impacts.column(curve.column);
     for (std::size_t i = 0; i < x.size(); ++i)
-      rows.push_back({curve.panel, curve.series, folded(x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
+      rows.push_back(
+          {curve.panel, curve.series, folded(x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
   }
   keep_last(rows, curve.most);
   return rows;
@@ -135,11 +139,16 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
 
 std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> runs) {
   switch (curve.extract) {
-    case Extract::histogram: return histogram(curve, runs);
-    case Extract::return_map: return return_map(curve, runs);
-    case Extract::scatter: return scatter(curve, runs);
-    case Extract::profile: return averaged(curve, runs, curve.fine ? "profiles_fine.csv" : "profiles.csv", "h");
-    case Extract::series: return averaged(curve, runs, "series.csv", "time");
+    case Extract::histogram:
+      return histogram(curve, runs);
+    case Extract::return_map:
+      return return_map(curve, runs);
+    case Extract::scatter:
+      return scatter(curve, runs);
+    case Extract::profile:
+      return averaged(curve, runs, curve.fine ? "profiles_fine.csv" : "profiles.csv", "h");
+    case Extract::series:
+      return averaged(curve, runs, "series.csv", "time");
   }
   return {};
 }

@@ -49,7 +49,8 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
       const auto [at, is_new] = known.try_emplace(text, plan.jobs.size());
       if (is_new) {
         const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
-        plan.jobs.push_back({std::move(scene), work / fmt::format("{}-{:08x}", scene_file.stem().string(), sum)});
+        plan.jobs.push_back(
+            {std::move(scene), work / fmt::format("{}-{:08x}", scene_file.stem().string(), sum)});
       }
       needed.push_back(at->second);
     }
@@ -110,8 +111,8 @@ FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
   for (const auto& curve : recipe.curves) {
     std::vector<fs::path> runs;
     for (const auto& run : curve.runs) runs.push_back(recipe_file.parent_path() / run);
-    table.comments.push_back(fmt::format("{}{}: from {}", curve.panel.empty() ? "" : curve.panel + " ", curve.series,
-                                         fmt::join(curve.runs, ", ")));
+    table.comments.push_back(fmt::format("{}{}: from {}", curve.panel.empty() ? "" : curve.panel + " ",
+                                         curve.series, fmt::join(curve.runs, ", ")));
     const auto rows = extract(curve, runs);
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }
@@ -130,10 +131,10 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
   const auto seeds = context.quick ? recipe.quick_seeds : recipe.seeds;
   table.comments = {fmt::format("x: {}", recipe.x), fmt::format("y: {}", recipe.y)};
   for (const auto& note : recipe.notes) table.comments.push_back(note);
-  table.comments.push_back(
-      fmt::format("made by chute {} ({}) from scene {}{}{}; {} run{} per series, seed{} 1{}", run::version,
-                  run::commit, *recipe.scene, recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " "), seeds,
-                  seeds > 1 ? "s" : "", seeds > 1 ? "s" : "", seeds > 1 ? fmt::format(" to {}", seeds) : ""));
+  table.comments.push_back(fmt::format(
+      "made by chute {} ({}) from scene {}{}{}; {} run{} per series, seed{} 1{}", run::version, run::commit,
+      *recipe.scene, recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " "), seeds,
+      seeds > 1 ? "s" : "", seeds > 1 ? "s" : "", seeds > 1 ? fmt::format(" to {}", seeds) : ""));
   if (context.quick)
     table.comments.push_back(
         fmt::format("quick: a cheaper simulation than the full figure's ({})", fmt::join(recipe.quick, " ")));

@@ -2,13 +2,14 @@
 #include <filesystem>
 #include <functional>
 
-#include "figures/data_recipe.hpp"
 #include "common/figure_table.hpp"
+#include "figures/data_recipe.hpp"
 
 namespace chute::figures {
 
-/// Makes a figure's table, from runs that the curves name, or else from a scene: simulates what it needs, in run directories under `work` that are used again if they hold
-/// the finished run of the same scene by the same build, and extracts the rows. `recipe_file` anchors relative paths.
+/// Makes a figure's table, from runs that the curves name, or else from a scene: simulates what it needs, in
+/// run directories under `work` that are used again if they hold the finished run of the same scene by the
+/// same build, and extracts the rows. `recipe_file` anchors relative paths.
 FigureTable simulate(const DataRecipe& recipe, const std::filesystem::path& recipe_file,
                      const std::filesystem::path& work, const FigureContext& context,
                      const std::string& command_line, const std::function<bool(double)>& progress);

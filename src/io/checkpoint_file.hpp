@@ -6,8 +6,9 @@
 
 namespace chute::io {
 
-/// A checkpoint: a magic word, the scene it belongs to, the state of engine and observers, and at the end a CRC-32 of
-/// all that. `save` writes the state straight into the file, so that large runs need no second copy in memory.
+/// A checkpoint: a magic word, the scene it belongs to, the state of engine and observers, and at the end a
+/// CRC-32 of all that. `save` writes the state straight into the file, so that large runs need no second copy
+/// in memory.
 void write_checkpoint(const std::filesystem::path& path, const std::string& scene,
                       const std::function<void(std::ostream&)>& save);
 

@@ -4,11 +4,10 @@
 #include <string_view>
 #include <vector>
 
-
 namespace chute::io {
 
-/// Text of a CSV file: comment lines with #, a header, rows. Numbers are the shortest text that reads back the same;
-/// an unknown number is an empty cell, never 0.
+/// Text of a CSV file: comment lines with #, a header, rows. Numbers are the shortest text that reads back
+/// the same; an unknown number is an empty cell, never 0.
 class Csv {
  public:
   Csv(std::vector<std::string> comments, std::vector<std::string_view> columns);

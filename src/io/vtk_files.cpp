@@ -30,8 +30,7 @@ void add_array(vtkDataSetAttributes* to, std::string_view name, std::size_t coun
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(static_cast<vtkIdType>(count));
   for (std::size_t i = 0; i < count; ++i)
-    for (int k = 0; k < components; ++k)
-      array->SetTypedComponent(static_cast<vtkIdType>(i), k, value(i, k));
+    for (int k = 0; k < components; ++k) array->SetTypedComponent(static_cast<vtkIdType>(i), k, value(i, k));
   to->AddArray(array);
 }
 
@@ -128,8 +127,7 @@ std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts) 
   add_vertices(data, n, [&](std::size_t i) { return impacts[i].place; });
   auto* to = data->GetPointData();
   const auto number = [&](const fields::Field& field, double Impact::*member) {
-    add_array<vtkDoubleArray>(to, field.name, n, 1,
-                              [&](std::size_t i, int) { return impacts[i].*member; });
+    add_array<vtkDoubleArray>(to, field.name, n, 1, [&](std::size_t i, int) { return impacts[i].*member; });
   };
   number(fields::time, &Impact::time);
   number(fields::gamma, &Impact::gamma);

@@ -6,14 +6,14 @@
 
 #include "core/engine.hpp"
 
-/// chute's VTK files (binary appended, compressed; ParaView opens them). Each function gives the bytes of a file, so
-/// that one place writes files and knows about full disks. Array names stand in common/fields.hpp.
+/// chute's VTK files (binary appended, compressed; ParaView opens them). Each function gives the bytes of a
+/// file, so that one place writes files and knows about full disks. Array names stand in common/fields.hpp.
 namespace chute::io {
 
 /// What every file says about its run.
 struct RunFacts {
-  std::string units;              ///< "SI" or "reduced"
-  std::array<double, 6> domain{}; ///< x0 x1 y0 y1 z0 z1; equal ends where it is not periodic
+  std::string units;               ///< "SI" or "reduced"
+  std::array<double, 6> domain{};  ///< x0 x1 y0 y1 z0 z1; equal ends where it is not periodic
   std::array<double, 3> gravity{};
 };
 

@@ -87,7 +87,8 @@ std::vector<ProfileBin> Profiles::result() const {
       samples += static_cast<double>(samples_[block]);
       blocks_means.emplace_back(s, static_cast<double>(samples_[block]), length_ * bin_);
     }
-    // The mean is that of the whole window, so that σ counts slow changes of the flow too; blocks only give the error.
+    // The mean is that of the whole window, so that σ counts slow changes of the flow too; blocks only give
+    // the error.
     const Means mean(total, samples, length_ * bin_);
     const auto estimate = [&](double Means::*member) {
       std::vector<double> values;
@@ -95,9 +96,16 @@ std::vector<ProfileBin> Profiles::result() const {
         if (std::isfinite(m.*member)) values.push_back(m.*member);
       return Estimate{mean.*member, block_error(values)};
     };
-    profile.push_back({(static_cast<double>(b) + 0.5) * bin_, total.count / samples, estimate(&Means::eta),
-                       estimate(&Means::exact), estimate(&Means::v_x), estimate(&Means::v_y),
-                       estimate(&Means::sigma_x), estimate(&Means::sigma_y), estimate(&Means::omega), {NAN, {}}});
+    profile.push_back({(static_cast<double>(b) + 0.5) * bin_,
+                       total.count / samples,
+                       estimate(&Means::eta),
+                       estimate(&Means::exact),
+                       estimate(&Means::v_x),
+                       estimate(&Means::v_y),
+                       estimate(&Means::sigma_x),
+                       estimate(&Means::sigma_y),
+                       estimate(&Means::omega),
+                       {NAN, {}}});
   }
   for (std::size_t b = 1; b + 1 < profile.size(); ++b) {
     const auto &below = profile[b - 1].v_x, &above = profile[b + 1].v_x;

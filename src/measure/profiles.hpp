@@ -7,7 +7,8 @@
 
 namespace chute::measure {
 
-/// A mean with its standard error, which is empty where it is not known. The mean is NaN where nothing was seen.
+/// A mean with its standard error, which is empty where it is not known. The mean is NaN where nothing was
+/// seen.
 struct Estimate {
   double mean;
   std::optional<double> error;
@@ -15,18 +16,18 @@ struct Estimate {
 
 /// One bin of a profile over the height h above the centres of the bed.
 struct ProfileBin {
-  double h;             ///< middle of the bin
-  double grains;        ///< mean number of grains whose centre lies in the bin
-  Estimate eta;         ///< area fraction: each grain counts whole where its centre is (thesis 5.2, footnote 4)
-  Estimate eta_exact;   ///< area fraction by the part of each disc that lies in the bin
-  Estimate v_x, v_y;    ///< mean velocity of the grains in the bin
+  double h;       ///< middle of the bin
+  double grains;  ///< mean number of grains whose centre lies in the bin
+  Estimate eta;   ///< area fraction: each grain counts whole where its centre is (thesis 5.2, footnote 4)
+  Estimate eta_exact;         ///< area fraction by the part of each disc that lies in the bin
+  Estimate v_x, v_y;          ///< mean velocity of the grains in the bin
   Estimate sigma_x, sigma_y;  ///< √(⟨v²⟩ − ⟨v⟩²)
-  Estimate omega;       ///< mean spin, positive when rolling downhill
+  Estimate omega;             ///< mean spin, positive when rolling downhill
   Estimate half_shear;  ///< ½ ∂v_x/∂h from the bins above and below; what ω is in simple shear (thesis 5.2.2)
 };
 
-/// Time averages over horizontal layers of a 2D flow. Errors are standard errors over `blocks` equal stretches of the
-/// averaging window, so that they count correlated samples as what they are.
+/// Time averages over horizontal layers of a 2D flow. Errors are standard errors over `blocks` equal
+/// stretches of the averaging window, so that they count correlated samples as what they are.
 class Profiles {
  public:
   static constexpr std::size_t blocks = 10;

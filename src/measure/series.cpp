@@ -11,7 +11,8 @@ SeriesRow observe_series(const Engine& engine) {
     row.x += grains.unwrapped(i, 0);
     row.v_x += grains.velocity[0][i];
     row.v_y += grains.velocity[grains.dimensions == 2 ? 1 : 2][i];
-    // 2D spins count anticlockwise about z; in 3D z is up and y completes x, so rolling downhill is positive there.
+    // 2D spins count anticlockwise about z; in 3D z is up and y completes x, so rolling downhill is positive
+    // there.
     row.omega += grains.dimensions == 2 ? -spin[i] : spin[i];
   }
   const auto n = static_cast<double>(grains.moving);

@@ -29,7 +29,8 @@ event::HardContact hard_contact(const scene::Scene& scene) {
   if (engine.restitution_velocity)
     contact.restitution =
         laws::PowerLawRestitution{1 - e_n, *engine.restitution_velocity, engine.restitution_exponent};
-  contact.tangential = {engine.friction.value_or(scene.contact.tangential.friction), engine.tangential_restitution};
+  contact.tangential = {engine.friction.value_or(scene.contact.tangential.friction),
+                        engine.tangential_restitution};
   return contact;
 }
 
@@ -45,7 +46,8 @@ std::unique_ptr<Engine> event_engine(const scene::Scene& scene, Grains<2> grains
   return std::make_unique<event::EventEngine<2>>(std::move(grains), setup);
 }
 
-std::unique_ptr<Engine> stochastic_engine(const scene::Scene& scene, Grains<2> grains, const Domain<2>& domain) {
+std::unique_ptr<Engine> stochastic_engine(const scene::Scene& scene, Grains<2> grains,
+                                          const Domain<2>& domain) {
   const auto contact = hard_contact(scene);
   theory::StochasticModel model;
   model.ball_radius = scene.mean_diameter() / 2;
@@ -79,8 +81,9 @@ Made make_engine(const scene::Scene& scene) {
   auto start = scene::make_start(scene);
   const double theta = scene.incline.theta(), g = scene.incline.gravity;
   const Vec<2> gravity{{g * std::sin(theta), -g * std::cos(theta)}};
-  const double floor = scene.bed.kind != scene::Bed::Kind::none ? -(scene.bed.diameter + scene.mean_diameter())
-                                                                : -std::numeric_limits<double>::infinity();
+  const double floor = scene.bed.kind != scene::Bed::Kind::none
+                           ? -(scene.bed.diameter + scene.mean_diameter())
+                           : -std::numeric_limits<double>::infinity();
   if (scene.engine.method == Method::event)
     return {event_engine(scene, std::move(start.grains), start.domain, gravity, floor), start.domain};
   if (scene.engine.method == Method::stochastic)
@@ -90,7 +93,7 @@ Made make_engine(const scene::Scene& scene) {
   setup.gravity = gravity;
   setup.laws = scene.contact.laws(scene.reference_pair());
   setup.scheme = scene.engine.integrator == scene::EngineSpec::Integrator::gear5 ? soft::Scheme::gear5
-                                                                                  : soft::Scheme::verlet;
+                                                                                 : soft::Scheme::verlet;
   setup.time_step = time_step(scene);
   setup.skins = soft::usual_skins<2>(scene.mean_diameter());
   setup.deepest_overlap = scene.engine.deepest_overlap;

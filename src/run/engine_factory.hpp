@@ -15,8 +15,8 @@ struct Made {
 /// The engine that a scene asks for, with its grains at the start. InputError if the grains do not fit.
 Made make_engine(const scene::Scene& scene);
 
-/// The time step of a scene: as given, or at most the asked part of the contact time, and such that outputs are a
-/// whole number of steps apart.
+/// The time step of a scene: as given, or at most the asked part of the contact time, and such that outputs
+/// are a whole number of steps apart.
 double time_step(const scene::Scene& scene);
 
 }  // namespace chute::run

@@ -57,7 +57,8 @@ class Run {
     if (out.profiles) {
       profiles_due_ = Schedule(out.profiles->from, *out.profiles->every, dt_);
       const auto add = [&](const char* file, double bin) {
-        profiles_.push_back({file, measure::Profiles(made_.domain.length[0], bin, out.profiles->from, scene.duration)});
+        profiles_.push_back(
+            {file, measure::Profiles(made_.domain.length[0], bin, out.profiles->from, scene.duration)});
       };
       add("profiles.csv", out.profiles->bin);
       if (out.profiles->fine) add("profiles_fine.csv", *out.profiles->fine);
@@ -110,8 +111,8 @@ class Run {
   void advance() {
     const auto from = engine().step();
     const auto next = std::min({series_due_.after(from), frames_due_.after(from), profiles_due_.after(from),
-                                impacts_from_after(from), checkpoint_due_.after(from), from + steps_per_report_,
-                                last_step_});
+                                impacts_from_after(from), checkpoint_due_.after(from),
+                                from + steps_per_report_, last_step_});
     const auto before = Clock::now();
     try {
       engine().advance_to(next);
@@ -188,7 +189,8 @@ class Run {
   void save() {
     write_series();
     for (const auto& file : profiles_) write_profiles(file);
-    if (scene_.output.impacts) write_atomically(directory_.file("impacts.vtp"), io::impacts_vtp(impacts_, facts_));
+    if (scene_.output.impacts)
+      write_atomically(directory_.file("impacts.vtp"), io::impacts_vtp(impacts_, facts_));
     if (scene_.output.frames) {
       std::vector<std::string> names;
       for (std::size_t k = 0; k < frame_times_.size(); ++k)
@@ -209,8 +211,8 @@ class Run {
 
   void write_series() {
     io::Csv csv(comments("means over the moving grains, and where the energy is and went (see README)"),
-                {"time", "x", "v_x", "v_y", "omega", "contacts", "translation", "rotation", "elastic", "gravity_work",
-                 "normal_loss", "shear_loss", "residual"});
+                {"time", "x", "v_x", "v_y", "omega", "contacts", "translation", "rotation", "elastic",
+                 "gravity_work", "normal_loss", "shear_loss", "residual"});
     for (const auto& r : series_)
       csv.row({r.time, r.x, r.v_x, r.v_y, r.omega, static_cast<double>(r.contacts), r.energy.translation,
                r.energy.rotation, r.energy.elastic, r.energy.gravity_work, r.energy.normal_loss,
@@ -219,15 +221,16 @@ class Run {
   }
 
   void write_profiles(const ProfileFile& file) {
-    io::Csv csv(comments("time averages over layers at height h above the centres of the bed; errors from blocks "
-                         "of the time window"),
-                {"h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "v_x", "v_x_err", "v_y", "v_y_err",
-                 "sigma_x", "sigma_x_err", "sigma_y", "sigma_y_err", "omega", "omega_err", "half_shear", "half_shear_err"});
+    io::Csv csv(
+        comments("time averages over layers at height h above the centres of the bed; errors from blocks "
+                 "of the time window"),
+        {"h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "v_x", "v_x_err", "v_y", "v_y_err",
+         "sigma_x", "sigma_x_err", "sigma_y", "sigma_y_err", "omega", "omega_err", "half_shear",
+         "half_shear_err"});
     for (const auto& b : file.profiles.result())
       csv.row({b.h, b.grains, b.eta.mean, b.eta.error, b.eta_exact.mean, b.eta_exact.error, b.v_x.mean,
                b.v_x.error, b.v_y.mean, b.v_y.error, b.sigma_x.mean, b.sigma_x.error, b.sigma_y.mean,
-               b.sigma_y.error, b.omega.mean, b.omega.error, b.half_shear.mean,
-               b.half_shear.error});
+               b.sigma_y.error, b.omega.mean, b.omega.error, b.half_shear.mean, b.half_shear.error});
     write_atomically(directory_.file(file.name), csv.text());
   }
 

@@ -18,14 +18,14 @@ struct RunOptions {
 };
 
 struct RunResult {
-  bool finished;         ///< false: stopped by `progress`; resume to go on
-  std::int64_t steps;    ///< done by this call
-  double seconds;        ///< wall time of this call
+  bool finished;       ///< false: stopped by `progress`; resume to go on
+  std::int64_t steps;  ///< done by this call
+  double seconds;      ///< wall time of this call
 };
 
-/// Runs a scene into a run directory, or goes on with one: the same scene, seed and build give the same bytes,
-/// interrupted or not. Leaves the folder with a checkpoint and run.json telling how it ended if the run leaves
-/// physics (WorkError).
+/// Runs a scene into a run directory, or goes on with one: the same scene, seed and build give the same
+/// bytes, interrupted or not. Leaves the folder with a checkpoint and run.json telling how it ended if the
+/// run leaves physics (WorkError).
 RunResult run_scene(const scene::Scene& scene, const RunOptions& options);
 
 /// The resolved scene of a finished run, if the directory holds one that finished; for reusing runs.

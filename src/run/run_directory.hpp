@@ -9,8 +9,8 @@ enum class Existing { refuse, resume, replace };
 /// The folder of one run: names of its files, and who may write into it.
 class RunDirectory {
  public:
-  /// Claims `path` for a run. An existing run is refused, resumed or replaced; a folder that holds other things is
-  /// never touched (InputError). WorkError if the folder cannot be made or written.
+  /// Claims `path` for a run. An existing run is refused, resumed or replaced; a folder that holds other
+  /// things is never touched (InputError). WorkError if the folder cannot be made or written.
   RunDirectory(std::filesystem::path path, Existing existing);
 
   const std::filesystem::path& path() const { return path_; }

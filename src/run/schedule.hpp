@@ -6,7 +6,8 @@
 
 namespace chute::run {
 
-/// Steps at which something is due: every so many, from a first one on, each time rounded to the nearest step.
+/// Steps at which something is due: every so many, from a first one on, each time rounded to the nearest
+/// step.
 class Schedule {
  public:
   Schedule() = default;

@@ -191,7 +191,8 @@ static void describe(Archive& a, Scene& scene) {
     if (scene.engine.method == EngineSpec::Method::stochastic) {
       a.check(scene.grains.count == 1 && scene.bed.kind != Bed::Kind::none, "engine",
               "method = \"stochastic\" moves a single ball along a bed");
-      a.check(scene.grains.start.velocity > 0, "grains", "the stochastic ball must start downhill: velocity > 0");
+      a.check(scene.grains.start.velocity > 0, "grains",
+              "the stochastic ball must start downhill: velocity > 0");
     }
     const double d = scene.bed.diameter, g = scene.incline.gravity;
     scene.output.series.every = scene.duration / 400;

@@ -7,15 +7,15 @@
 
 #include "scene/contact_spec.hpp"
 
-/// A scene: what a physicist writes down to define a run. Lengths, times and masses are in SI or in reduced units
-/// (m = g = d = 1, with d the diameter of a bed grain). Reading fills every default in, so that the written-back
-/// scene is complete.
+/// A scene: what a physicist writes down to define a run. Lengths, times and masses are in SI or in reduced
+/// units (m = g = d = 1, with d the diameter of a bed grain). Reading fills every default in, so that the
+/// written-back scene is complete.
 namespace chute::scene {
 
 enum class Units { reduced, si };
 
-/// Inclination θ: `angle = "18 deg"` (or `"0.3 rad"`), or `sin = 0.094`. Kept as it was written, so that the resolved
-/// scene gives the same bytes.
+/// Inclination θ: `angle = "18 deg"` (or `"0.3 rad"`), or `sin = 0.094`. Kept as it was written, so that the
+/// resolved scene gives the same bytes.
 struct Incline {
   std::optional<std::string> angle;
   std::optional<double> sine;
@@ -28,8 +28,8 @@ struct Bed {
   enum class Kind { row, disordered_row, none } kind = Kind::row;
   double diameter = 1;
   std::int64_t count = 30;
-  double gap = 0;      ///< row: ε; neighbours' surfaces are 2εr apart
-  double gap_max = 0;  ///< disordered-row: ε_max; ε is drawn evenly from [0, ε_max]
+  double gap = 0;                ///< row: ε; neighbours' surfaces are 2εr apart
+  double gap_max = 0;            ///< disordered-row: ε_max; ε is drawn evenly from [0, ε_max]
   std::optional<double> length;  ///< none: length of the periodic domain
 };
 
@@ -42,36 +42,41 @@ struct Start {
   enum class Lattice { square, none } lattice = Lattice::square;
   std::optional<double> spacing;  ///< square: distance between neighbours; default 1.25 mean diameters
   std::optional<double> x;        ///< none: place along the line; default above the first gap
-  std::optional<double> height;   ///< of the lowest centres above the bed's; default: one diameter of free space
-  double velocity = 0;            ///< mean v_x
-  double velocity_up = 0;         ///< mean v_y
-  double spread = 0;              ///< standard deviation of both components
+  std::optional<double>
+      height;              ///< of the lowest centres above the bed's; default: one diameter of free space
+  double velocity = 0;     ///< mean v_x
+  double velocity_up = 0;  ///< mean v_y
+  double spread = 0;       ///< standard deviation of both components
 };
 
 struct GrainsSpec {
   std::int64_t count = 1;
   std::optional<Diameter> diameter;
   std::optional<double> size_ratio;  ///< Φ = R/r instead of a diameter
-  double density = 0;                ///< grains are spheres, in 2D too; default 6/π in reduced units (m = d³)
+  double density = 0;  ///< grains are spheres, in 2D too; default 6/π in reduced units (m = d³)
   Start start;
 };
 
 struct EngineSpec {
   enum class Method { soft, event, stochastic } method = Method::soft;
   enum class Integrator { gear5, verlet } integrator = Integrator::gear5;
-  double steps_per_contact = 50;   ///< t_n of two mean grains (of grain and bed, if there is one grain) over the step
-  std::optional<double> time_step; ///< instead
-  double deepest_overlap = 0.25;   ///< of the smaller radius; beyond it the run stops
+  double steps_per_contact =
+      50;  ///< t_n of two mean grains (of grain and bed, if there is one grain) over the step
+  std::optional<double> time_step;  ///< instead
+  double deepest_overlap = 0.25;    ///< of the smaller radius; beyond it the run stops
   // event, stochastic: Walton's collisions. What is not given is that of [contact], for the reference pair
   std::optional<double> restitution, friction;
-  double tangential_restitution = 0;             ///< β
+  double tangential_restitution = 0;  ///< β
   // event
-  std::optional<double> contact_time;            ///< t_c of the cut-off, 0: none; default t_n of [contact]
-  std::optional<double> restitution_velocity;    ///< v_0 at which e_n holds: e_n(v) = 1 − (1 − e_n)(v/v_0)^δ
-  double restitution_exponent = 0.2;             ///< δ
+  std::optional<double> contact_time;          ///< t_c of the cut-off, 0: none; default t_n of [contact]
+  std::optional<double> restitution_velocity;  ///< v_0 at which e_n holds: e_n(v) = 1 − (1 − e_n)(v/v_0)^δ
+  double restitution_exponent = 0.2;           ///< δ
   // stochastic
-  enum class Friction { published, without_rotation } impact_friction = Friction::published;  ///< (4.8) or (4.9)
-  bool shadowed = false;                         ///< only angles that a ball can reach
+  enum class Friction {
+    published,
+    without_rotation
+  } impact_friction = Friction::published;  ///< (4.8) or (4.9)
+  bool shadowed = false;                    ///< only angles that a ball can reach
 };
 
 /// When one kind of output is written, in the scene's time.
@@ -80,20 +85,20 @@ struct Every {
 };
 struct ProfileSpec {
   double from = 0;
-  double bin = 0;                  ///< height of a bin; default one bed diameter
-  std::optional<double> fine;      ///< height of the bins of a second profile, in profiles_fine.csv
-  std::optional<double> every;     ///< time between samples; default 0.02 √(d/g)
+  double bin = 0;               ///< height of a bin; default one bed diameter
+  std::optional<double> fine;   ///< height of the bins of a second profile, in profiles_fine.csv
+  std::optional<double> every;  ///< time between samples; default 0.02 √(d/g)
 };
 struct ImpactSpec {
   double from = 0;
 };
 struct OutputSpec {
   std::optional<Every> frames;
-  Every series;                    ///< default: 400 rows over the run
+  Every series;  ///< default: 400 rows over the run
   std::optional<ProfileSpec> profiles;
   std::optional<ImpactSpec> impacts;
-  bool contacts = false;           ///< the contact network beside every frame
-  double checkpoint = 0;           ///< time between checkpoints; default a tenth of the run
+  bool contacts = false;  ///< the contact network beside every frame
+  double checkpoint = 0;  ///< time between checkpoints; default a tenth of the run
 };
 
 struct Scene {
@@ -115,10 +120,11 @@ struct Scene {
   laws::Pair reference_pair() const;
 };
 
-/// Reads a scene file; `settings` are `key.path=value` from the command line. InputError `FILE:LINE: key: …` on
-/// anything unknown, missing or out of range.
+/// Reads a scene file; `settings` are `key.path=value` from the command line. InputError `FILE:LINE: key: …`
+/// on anything unknown, missing or out of range.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
-Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings = {});
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::vector<std::string>& settings = {});
 
 /// The complete scene as TOML: reading it gives the same scene.
 std::string to_toml(const Scene& scene);

@@ -112,7 +112,8 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
     }
     std::sort(row_.begin(), row_.end());
     for (const auto j : row_)
-      pairs.add(static_cast<std::int32_t>(i), j, grains.radius[i] + grains.radius[static_cast<std::size_t>(j)]);
+      pairs.add(static_cast<std::int32_t>(i), j,
+                grains.radius[i] + grains.radius[static_cast<std::size_t>(j)]);
   }
 }
 

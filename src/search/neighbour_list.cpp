@@ -1,6 +1,5 @@
 #include "search/neighbour_list.hpp"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -46,8 +45,7 @@ NeighbourList<D>::NeighbourList(const Domain<D>& domain, Skins skins, Method met
 template <int D>
 bool NeighbourList<D>::moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit) const {
   std::int64_t any = 0;
-  MovedKernel<D> kernel{
-      {}, {}, domain_.length, 0.5 * domain_.length, limit * limit, grains.moving, &any};
+  MovedKernel<D> kernel{{}, {}, domain_.length, 0.5 * domain_.length, limit * limit, grains.moving, &any};
   for (int k = 0; k < D; ++k) kernel.now[k] = grains.position[k].data(), kernel.before[k] = since[k].data();
   run_kernel(isa_, kernel);
   return any != 0;
@@ -91,7 +89,8 @@ template <int D>
 const PairList& NeighbourList<D>::near(const Grains<D>& grains) {
   const bool first = near_builds_ == 0;
   if (first || moved(grains, near_places_, skins_.near / 2)) {
-    // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the way moved.
+    // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the
+    // way moved.
     if (first || moved(grains, far_places_, (skins_.far - skins_.near) / 2)) build_far(grains);
     build_near(grains);
   }

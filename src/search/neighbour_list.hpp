@@ -8,11 +8,11 @@ namespace chute::search {
 
 enum class Method { cells, all_pairs };
 
-/// Verlet lists on two levels. The far list holds all pairs with a gap below the far skin and is found through the
-/// cell grid; the near list is the part of it with a gap below the near skin, and is what every step looks through.
-/// A near list is made anew from the far one when some grain has moved half the near skin since, a far list from the
-/// grid when that no longer guarantees that it holds every pair of the next near list. Both bounds are exact, so no
-/// contact is ever missed. Steps in between allocate and build nothing.
+/// Verlet lists on two levels. The far list holds all pairs with a gap below the far skin and is found
+/// through the cell grid; the near list is the part of it with a gap below the near skin, and is what every
+/// step looks through. A near list is made anew from the far one when some grain has moved half the near skin
+/// since, a far list from the grid when that no longer guarantees that it holds every pair of the next near
+/// list. Both bounds are exact, so no contact is ever missed. Steps in between allocate and build nothing.
 template <int D>
 class NeighbourList {
  public:

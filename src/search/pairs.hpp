@@ -7,9 +7,10 @@
 
 namespace chute::search {
 
-/// Pairs of grains that may touch, i < j, ordered by i and then by j. Everything that sums over contacts does so in
-/// this order, so results depend only on who touches whom, not on when or how a list was built: a resumed run, another
-/// skin, or the all-pairs twin give the same bytes. Pairs of two fixed grains are left out.
+/// Pairs of grains that may touch, i < j, ordered by i and then by j. Everything that sums over contacts does
+/// so in this order, so results depend only on who touches whom, not on when or how a list was built: a
+/// resumed run, another skin, or the all-pairs twin give the same bytes. Pairs of two fixed grains are left
+/// out.
 struct PairList {
   std::vector<std::int32_t> i, j;
   Array reach_squared;  ///< (R_i + R_j)²: the pair touches when its distance squared is less
