@@ -135,7 +135,19 @@ void TomlReader::fail(std::string_view key, const std::string& message) const {
   throw InputError(where(node ? node : table_) + path(key) + ": " + message);
 }
 
-void TomlReader::missing(std::string_view key) const { fail(key, "missing, but required"); }
+void TomlReader::missing(std::string_view key) const {
+  find_slip();
+  fail(key, "missing, but required");
+}
+
+void TomlReader::find_slip() const {
+  for (const auto& [key, node] : *table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    const auto hint = nearest(key.str(), known_);
+    if (!hint.empty() && !has(hint))
+      throw InputError(where(&node) + path(key.str()) + ": unknown key, did you mean " + hint + "?");
+  }
+}
 
 void TomlReader::know(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);

@@ -135,7 +135,9 @@ class TomlReader {
 
   /// A rule that only the reader needs (checks between keys).
   void check(bool holds, std::string_view key, const std::string& message) const {
-    if (!holds) fail(key, message);
+    if (holds) return;
+    find_slip();
+    fail(key, message);
   }
 
  private:
@@ -144,6 +146,8 @@ class TomlReader {
   std::vector<std::string> known_;
 
   void know(std::string_view key);
+  /// A key that is missing may be there under a misspelt name: then that is what to say.
+  void find_slip() const;
   [[noreturn]] void missing(std::string_view key) const;
   TomlReader enter(std::string_view key) const;
   TomlReader enter(std::string_view key, std::size_t index) const;

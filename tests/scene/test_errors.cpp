@@ -102,6 +102,13 @@ TEST_CASE("settings that are wrong say so, and that they came from --set") {
   CHECK(set("run.duration=") == "scene.toml:26: run.duration: missing, but required");
 }
 
+TEST_CASE("a required key under a misspelt name is named, not the rule that misses it") {
+  CHECK(refused("stiffness = 5e6", "stifness = 5e6").ends_with(
+      ": contact.normal.stifness: unknown key, did you mean stiffness?"));
+  CHECK(refused("duration = 400", "duraton = 400").ends_with(
+      ": run.duraton: unknown key, did you mean duration?"));
+}
+
 TEST_CASE("what is not TOML is refused with its line") {
   CHECK(refused("[bed]", "[bed").starts_with("scene.toml:6: not TOML: "));
   CHECK(refused("count = 30\n", "count = \n").starts_with("scene.toml:9: not TOML: "));

@@ -48,6 +48,26 @@ TEST_CASE("no contact is missed while grains walk") {
   check_walk<3>(method, 0.01);
 }
 
+TEST_CASE("two grains that meet from outside every list are found in time") {
+  const double near = 0.1, far = 0.4;
+  for (double gap = far + 1e-4; gap < far + 0.2; gap += 0.003)  // at the start; each goes half of it
+    for (const double stride : {0.001, 0.01, 0.03}) {
+      Grains<2> grains;
+      grains.add({{0, 0}}, 0.5, 1, 1, true);
+      grains.add({{1 + gap, 0}}, 0.5, 1, 1, true);
+      search::NeighbourList<2> list({}, {near, far});
+      list.near(grains);
+      while (grains.position[0][1] - grains.position[0][0] > 0.9) {
+        grains.position[0][0] += stride;
+        grains.position[0][1] -= stride;
+        const bool touch = grains.position[0][1] - grains.position[0][0] < 1;
+        const auto pairs = list.near(grains).size();
+        if (touch && pairs != 1) FAIL("missed: gap " << gap << ", stride " << stride);
+      }
+      CHECK(list.near(grains).size() == 1);
+    }
+}
+
 TEST_CASE("lists are made anew only when something has moved far enough") {
   const auto isa = GENERATE(Isa::baseline, best_isa());
   Domain<2> domain;
@@ -74,7 +94,7 @@ TEST_CASE("lists are made anew only when something has moved far enough") {
   CHECK(builds() == Builds{2, 1});
   grains.position[1][5] = x0 + 0.3999;  // far list: half of far minus near
   CHECK(builds() == Builds{3, 1});
-  grains.position[1][5] = x0 + 0.5001;
+  grains.position[1][6] += 0.4001;  // another one, farther than that
   CHECK(builds() == Builds{4, 2});
   grains.position[0][7] = 0.01;  // once around the period is a short way
   CHECK(builds() == Builds{4, 2});
