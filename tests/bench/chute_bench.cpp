@@ -1,5 +1,6 @@
-// Speed of the dense flow of thesis 5.2 (scenes/chute-2d.toml) and larger copies of it, one thread, after five units
-// of time in which it settles. `grain_steps/s` is the number to compare; memory is what the process grew by.
+// Speed of the dense flow of thesis 5.2 (scenes/chute-2d.toml) and larger copies of it, one thread, after
+// five units of time in which it settles. `grain_steps/s` is the number to compare; memory is what the
+// process grew by.
 //   chute_bench --benchmark_filter='flow/300/.*'
 #include <benchmark/benchmark.h>
 #include <unistd.h>
@@ -19,8 +20,9 @@ using namespace chute;
 constexpr double settling = 5;
 
 scene::Scene flow(std::int64_t grains) {
-  return scene::read_scene(CHUTE_SOURCE_DIR "/scenes/chute-2d.toml",
-                           {"grains.count=" + std::to_string(grains), "bed.count=" + std::to_string(grains / 10)});
+  return scene::read_scene(
+      CHUTE_SOURCE_DIR "/scenes/chute-2d.toml",
+      {"grains.count=" + std::to_string(grains), "bed.count=" + std::to_string(grains / 10)});
 }
 
 /// As run::make_engine, with a choice of the instruction set.
@@ -59,8 +61,10 @@ void steps(benchmark::State& state, std::int64_t grains, Isa isa) {
   const auto lists = engine.neighbours().near_builds();
   for (auto _ : state) engine.advance_to(engine.step() + slice);
   const auto done = static_cast<double>(state.iterations() * slice);
-  state.counters["grain_steps/s"] = benchmark::Counter(done * static_cast<double>(grains), benchmark::Counter::kIsRate);
-  state.counters["contacts/grain"] = static_cast<double>(engine.contacts().size()) / static_cast<double>(grains);
+  state.counters["grain_steps/s"] =
+      benchmark::Counter(done * static_cast<double>(grains), benchmark::Counter::kIsRate);
+  state.counters["contacts/grain"] =
+      static_cast<double>(engine.contacts().size()) / static_cast<double>(grains);
   const auto made = std::max<std::int64_t>(1, engine.neighbours().near_builds() - lists);
   state.counters["steps/list"] = done / static_cast<double>(made);
 }
@@ -88,11 +92,14 @@ int main(int argc, char** argv) {
   const std::pair<const char*, Isa> sets[] = {
       {"baseline", Isa::baseline}, {"avx2", Isa::avx2}, {"avx512", Isa::avx512}};
   // memory first: what other benchmarks have freed would hide growth
-  benchmark::RegisterBenchmark("memory/100000", memory, 100'000)->Iterations(1)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("memory/100000", memory, 100'000)
+      ->Iterations(1)
+      ->Unit(benchmark::kMillisecond);
   for (const std::int64_t grains : {300, 3000, 30'000})
     for (const auto& [name, isa] : sets)
       if (isa <= best_isa())
-        benchmark::RegisterBenchmark(("flow/" + std::to_string(grains) + "/" + name).c_str(), steps, grains, isa)
+        benchmark::RegisterBenchmark(("flow/" + std::to_string(grains) + "/" + name).c_str(), steps, grains,
+                                     isa)
             ->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

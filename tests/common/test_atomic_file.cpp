@@ -82,8 +82,9 @@ TEST_CASE("a folder that may not be written leaves the old file") {
 TEST_CASE("a name that cannot be replaced leaves nothing beside it") {
   const Folder folder;
   fs::create_directories(folder / "taken/inside");  // a folder that is not empty cannot be renamed over
-  CHECK(message<WorkError>([&] { write_atomically(folder / "taken", "x"); })
-            .starts_with((folder / "taken").string() + ": cannot write: "));
+  CHECK(message<WorkError>([&] {
+          write_atomically(folder / "taken", "x");
+        }).starts_with((folder / "taken").string() + ": cannot write: "));
   std::size_t entries = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path())) ++entries;
   CHECK(entries == 1);

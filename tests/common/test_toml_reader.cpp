@@ -66,8 +66,9 @@ std::string written(House house) {
 }  // namespace
 
 TEST_CASE("one description reads and writes") {
-  const auto house = read("name = \"inn\"\nrooms = 12\nwarm = true\ncolour = \"red\"\ngarden = 3\npeople = [\"a\", \"b\"]\n"
-                          "[wall]\nheight = 1.5\nbricks = [1, 0.1]\n");
+  const auto house = read(
+      "name = \"inn\"\nrooms = 12\nwarm = true\ncolour = \"red\"\ngarden = 3\npeople = [\"a\", \"b\"]\n"
+      "[wall]\nheight = 1.5\nbricks = [1, 0.1]\n");
   CHECK(house.name == "inn");
   CHECK(house.rooms == 12);
   CHECK(house.warm);
@@ -92,7 +93,8 @@ TEST_CASE("what is absent keeps its default, and optional things stay absent") {
 
 TEST_CASE("texts and numbers survive being written") {
   House house;
-  for (const std::string name : {"", "it's", "\"quoted\"", "back\\slash", "two\nlines", "tab\t", "\x01", "Größe", "'''"}) {
+  for (const std::string name :
+       {"", "it's", "\"quoted\"", "back\\slash", "two\nlines", "tab\t", "\x01", "Größe", "'''"}) {
     house.name = name;
     INFO(written(house));
     CHECK(read(written(house)).name == name);

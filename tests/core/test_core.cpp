@@ -25,7 +25,8 @@ TEST_CASE("the shortest way is the shortest of all images, and turns around") {
   CHECK_FALSE(domain.periodic(1));
   Random random(1, Purpose::bed);
   for (int i = 0; i < 1000; ++i) {
-    const Vec<2> from{{random.uniform(-1, 2), random.uniform(-9, 9)}}, to{{random.uniform(-1, 2), random.uniform(-9, 9)}};
+    const Vec<2> from{{random.uniform(-1, 2), random.uniform(-9, 9)}},
+        to{{random.uniform(-1, 2), random.uniform(-9, 9)}};
     const auto way = domain.way(from, to);
     double best = 1e9;
     for (int image = -1; image <= 1; ++image) best = std::min(best, std::abs(to[0] - from[0] + 3 * image));
@@ -36,7 +37,8 @@ TEST_CASE("the shortest way is the shortest of all images, and turns around") {
   }
 }
 
-// The standard fixes seed_seq and the Mersenne twister to the bit, and a 64-bit word to [0, 1) leaves no choice.
+// The standard fixes seed_seq and the Mersenne twister to the bit, and a 64-bit word to [0, 1) leaves no
+// choice.
 TEST_CASE("uniform numbers are those of the standard's generator") {
   const std::uint64_t seed = 0x123456789abcdef0;
   Random random(seed, Purpose::sizes);

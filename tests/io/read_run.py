@@ -72,8 +72,8 @@ with tempfile.TemporaryDirectory() as folder:
         check(data.GetNumberOfPoints() == 30, path + ": 20 grains and 10 of the bed")
         check(data.GetNumberOfVerts() == 30, path + ": a vertex each")
         arrays = names(data.GetPointData())
-        wanted = {"id": 1, "type": 1, "radius": 1, "mass": 1, "velocity": 3, "angular_velocity": 3, "force": 3,
-                  "angle": 1}
+        wanted = {"id": 1, "type": 1, "radius": 1, "mass": 1, "velocity": 3, "angular_velocity": 3,
+                  "force": 3, "angle": 1}
         shapes = {name: a.GetNumberOfComponents() for name, a in arrays.items()}
         check(shapes == wanted, path + ": arrays %s" % shapes)
         check([arrays["type"].GetValue(i) for i in range(30)] == [1] * 20 + [0] * 10, path + ": type")
@@ -111,7 +111,8 @@ with tempfile.TemporaryDirectory() as folder:
         check(2 <= now + dt and now <= 8 + dt and now >= last, "impacts are in order of time, from 2 on")
         last = now
         check(0 <= arrays["grain"].GetValue(i) < 20, "a moving grain hits")
-        check(arrays["v_n"].GetValue(i) < 0, "impacts approach: v_n = %g at t = %g" % (arrays["v_n"].GetValue(i), now))
+        v_n = arrays["v_n"].GetValue(i)
+        check(v_n < 0, "impacts approach: v_n = %g at t = %g" % (v_n, now))
 
     for name in ("series.csv", "profiles.csv"):
         text = open(os.path.join(run, name)).read()
@@ -122,9 +123,10 @@ with tempfile.TemporaryDirectory() as folder:
         if name == "series.csv":
             check(len(rows) == 9, "series.csv: t = 0 … 8")
             for row in rows:
-                stored = sum(float(row[c]) - float(rows[0][c]) for c in ("translation", "rotation", "elastic"))
-                left = float(row["gravity_work"]) - stored - float(row["normal_loss"]) - float(row["shear_loss"])
-                check(abs(left - float(row["residual"])) < 1e-8, "series.csv: the balance adds up")
+                row = {key: float(value) for key, value in row.items()}
+                stored = sum(row[c] - float(rows[0][c]) for c in ("translation", "rotation", "elastic"))
+                left = row["gravity_work"] - stored - row["normal_loss"] - row["shear_loss"]
+                check(abs(left - row["residual"]) < 1e-8, "series.csv: the balance adds up")
 
 print("%d failures" % len(failures))
 sys.exit(1 if failures else 0)

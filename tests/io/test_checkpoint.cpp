@@ -72,8 +72,10 @@ TEST_CASE("a checkpoint with one flipped bit is refused in one line") {
 TEST_CASE("a checkpoint of another scene is refused") {
   const Folder folder;
   const auto whole = saved(folder);
-  CHECK(refused(folder, whole, "title = \"another\"\n") == (folder / "checkpoint").string() + ": belongs to another scene");
-  CHECK(refused(folder, whole, scene + " ") == (folder / "checkpoint").string() + ": belongs to another scene");
+  CHECK(refused(folder, whole, "title = \"another\"\n") ==
+        (folder / "checkpoint").string() + ": belongs to another scene");
+  CHECK(refused(folder, whole, scene + " ") ==
+        (folder / "checkpoint").string() + ": belongs to another scene");
 }
 
 TEST_CASE("a missing checkpoint is an input error") {
@@ -86,10 +88,11 @@ TEST_CASE("a save that fails leaves the old checkpoint whole and nothing beside 
   const Folder folder;
   const auto whole = saved(folder);
   struct Oops {};
-  CHECK_THROWS_AS(io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream& out) {
-                    out << "half";
-                    throw Oops{};
-                  }),
+  CHECK_THROWS_AS(io::write_checkpoint(folder / "checkpoint", scene,
+                                       [](std::ostream& out) {
+                                         out << "half";
+                                         throw Oops{};
+                                       }),
                   Oops);
   CHECK(content(folder / "checkpoint") == whole);
   CHECK(tree(folder.path()).size() == 1);

@@ -1,4 +1,3 @@
-#include <catch2/catch.hpp>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -8,6 +7,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
+
+#include <catch2/catch.hpp>
 
 #include "folder.hpp"
 #include "io/vtk_files.hpp"
@@ -124,7 +125,9 @@ TEST_CASE("impacts come back from VTK as they were") {
   REQUIRE(data->GetNumberOfPoints() == 2);
   for (vtkIdType i = 0; i < 2; ++i) {
     const auto& impact = impacts[static_cast<std::size_t>(i)];
-    const auto value = [&](const char* name) { return data->GetPointData()->GetArray(name)->GetComponent(i, 0); };
+    const auto value = [&](const char* name) {
+      return data->GetPointData()->GetArray(name)->GetComponent(i, 0);
+    };
     CHECK(value("time") == impact.time);
     CHECK(value("gamma") == impact.gamma);
     CHECK(value("phi") == impact.phi);
@@ -156,7 +159,9 @@ TEST_CASE("contacts are lines between nearest images") {
     CHECK(from == -0.9);
     CHECK(to == Approx(c == 0 ? 3.8 - 5 : 1));  // across the period, not through the whole domain
     const auto& contact = contacts[static_cast<std::size_t>(c)];
-    const auto value = [&](const char* name) { return data->GetCellData()->GetArray(name)->GetComponent(c, 0); };
+    const auto value = [&](const char* name) {
+      return data->GetCellData()->GetArray(name)->GetComponent(c, 0);
+    };
     CHECK(value("normal_force") == contact.normal_force);
     CHECK(value("shear_force") == contact.shear_force);
     CHECK(value("overlap") == contact.overlap);

@@ -11,8 +11,8 @@ struct Bounce {
   double restitution, time, loss, deepest;
 };
 
-/// A head-on impact at speed v, by small steps of Runge and Kutta's method with the law's force alone; the end of the
-/// contact, where the overlap is 0 again, by halving the last step.
+/// A head-on impact at speed v, by small steps of Runge and Kutta's method with the law's force alone; the
+/// end of the contact, where the overlap is 0 again, by halving the last step.
 Bounce bounce(const SpringDashpot& law, double m_eff, double v) {
   const auto force = [&](double xi, double dxi) { return law(xi, dxi, m_eff).total; };
   double step = 1e-3 / std::sqrt(law.stiffness(m_eff) / m_eff);
@@ -59,18 +59,21 @@ TEST_CASE("(3.2) and (3.3) are what the motion does") {
     INFO("damping " << damping);
     CHECK(law.restitution(m_eff) == Approx(truth.restitution).epsilon(1e-7));
     CHECK(law.contact_time(m_eff) == Approx(truth.time).epsilon(1e-7));
-    CHECK(truth.loss == Approx(0.5 * m_eff * v * v * (1 - truth.restitution * truth.restitution)).epsilon(1e-5).margin(1e-12));
+    CHECK(truth.loss == Approx(0.5 * m_eff * v * v * (1 - truth.restitution * truth.restitution))
+                            .epsilon(1e-5)
+                            .margin(1e-12));
   }
 }
 
 TEST_CASE("an asked restitution holds for every pair") {
   for (const double e_n : {0.1, 0.6, 0.95, 1.0})
     for (const double m_eff : {1e-4, 0.5, 30.0})
-      CHECK(bounce(SpringDashpot::from_restitution(k, e_n), m_eff, 1).restitution == Approx(e_n).epsilon(1e-6));
+      CHECK(bounce(SpringDashpot::from_restitution(k, e_n), m_eff, 1).restitution ==
+            Approx(e_n).epsilon(1e-6));
 }
 
-// Thesis 3.1.1, last paragraph: with neither scaled e_n grows with m_eff, with the damping scaled it falls, with both
-// e_n and t_n do not depend on it.
+// Thesis 3.1.1, last paragraph: with neither scaled e_n grows with m_eff, with the damping scaled it falls,
+// with both e_n and t_n do not depend on it.
 TEST_CASE("the three ways for the mass to enter") {
   const auto e = [](MassScaling scaling, double m_eff) {
     return bounce(SpringDashpot::from_damping(k, 40, scaling), m_eff, 1);

@@ -90,7 +90,8 @@ TEST_CASE("a disc partly below the bed's centres counts only above them") {
   profiles.sample(discs.at(1));
   const auto bins = profiles.result();
   REQUIRE(bins.size() == 1);
-  const double below = 0.25 * std::acos(0.4) - 0.2 * std::sqrt(0.25 - 0.04);  // circular segment under height 0
+  const double below =
+      0.25 * std::acos(0.4) - 0.2 * std::sqrt(0.25 - 0.04);  // circular segment under height 0
   CHECK(bins[0].eta_exact.mean == Approx(pi * 0.25 - below));
   CHECK(bins[0].grains == 1);
 }

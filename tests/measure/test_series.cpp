@@ -27,7 +27,8 @@ class Still final : public Engine {
 }  // namespace
 
 TEST_CASE("a row of the series is a mean over the moving grains") {
-  const std::vector<double> x{1, 2, 50}, y{1, 1, 0}, vx{2, 6, 0}, vy{-1, 2, 0}, spin{-3, -5, 0}, radius{1, 1, 1};
+  const std::vector<double> x{1, 2, 50}, y{1, 1, 0}, vx{2, 6, 0}, vy{-1, 2, 0}, spin{-3, -5, 0},
+      radius{1, 1, 1};
   const std::vector<int> wraps{0, 2};
   Still engine;
   engine.view.moving = 2;  // the third is the bed

@@ -7,14 +7,16 @@ using namespace chute;
 
 namespace {
 
-/// Mean velocity of a ball that hits without restoring and sticks to what it rolls on: thesis 4.2.5 corrected. It
-/// rolls over a bead from −γ_max to γ_max, (4.33) with m_eff = 7/5 m, gains 2 m g (R+r) sin γ_max sin θ, and keeps
-/// e_t = (5 cos 2γ_max + 2)/7 of its velocity in each impact (angular momentum about the new contact).
+/// Mean velocity of a ball that hits without restoring and sticks to what it rolls on: thesis 4.2.5
+/// corrected. It rolls over a bead from −γ_max to γ_max, (4.33) with m_eff = 7/5 m, gains 2 m g (R+r) sin
+/// γ_max sin θ, and keeps e_t = (5 cos 2γ_max + 2)/7 of its velocity in each impact (angular momentum about
+/// the new contact).
 double closed_form(double size_ratio, double sine, double r, double g) {
   const double R = size_ratio * r, theta = std::asin(sine), gamma_max = std::asin(1 / (1 + size_ratio));
   const double e_t = (5 * std::cos(2 * gamma_max) + 2) / 7, w2 = 5.0 / 7 * g / (R + r);
-  const double end = 4 * w2 * sine * std::sin(gamma_max) / (1 - e_t * e_t);  // γ'² just before an impact (4.45)
-  const auto rate = [&](double gamma) {  // γ' from the energy, (4.46)
+  const double end =
+      4 * w2 * sine * std::sin(gamma_max) / (1 - e_t * e_t);  // γ'² just before an impact (4.45)
+  const auto rate = [&](double gamma) {                       // γ' from the energy, (4.46)
     return std::sqrt(end - 2 * w2 * (std::cos(theta + gamma) - std::cos(theta + gamma_max)));
   };
   const int n = 1000;  // Simpson's rule for (4.48)
@@ -27,8 +29,8 @@ double closed_form(double size_ratio, double sine, double r, double g) {
 
 }  // namespace
 
-// What is left of the 2 %: e_n = 0.1 is not 0, friction is 0.13 and regularised (all sticking would need more), and
-// the ball sinks a little into the bed; each of them makes it slower.
+// What is left of the 2 %: e_n = 0.1 is not 0, friction is 0.13 and regularised (all sticking would need
+// more), and the ball sinks a little into the bed; each of them makes it slower.
 TEST_CASE("a ball on a line of balls runs at the corrected closed form") {
   for (const double size_ratio : {2.25, 3.0})
     for (const double sine : {0.06, 0.08, 0.1}) {

@@ -10,8 +10,9 @@ using namespace chute::test;
 namespace {
 
 scene::Scene tiny(std::vector<std::string> settings = {}) {
-  settings.insert(settings.begin(), {"grains.count=8", "bed.count=6", "run.duration=1", "contact.normal.stiffness=1e4",
-                                     "contact.tangential.viscosity=50", "output.frames={every=0.5}"});
+  settings.insert(settings.begin(),
+                  {"grains.count=8", "bed.count=6", "run.duration=1", "contact.normal.stiffness=1e4",
+                   "contact.tangential.viscosity=50", "output.frames={every=0.5}"});
   return scene::read_scene(CHUTE_SOURCE_DIR "/scenes/chute-2d.toml", settings);
 }
 
@@ -30,7 +31,8 @@ TEST_CASE("an existing run is refused, resumed or replaced, as asked") {
   go(tiny(), run, run::Existing::refuse);
   const auto before = tree(run);
   CHECK(message<InputError>([&] { go(tiny(), run, run::Existing::refuse); }) ==
-        run.string() + ": a run is already there; give --resume to go on with it, --force to replace it, or -o another");
+        run.string() +
+            ": a run is already there; give --resume to go on with it, --force to replace it, or -o another");
   CHECK(tree(run) == before);
   CHECK(message<InputError>([&] { go(tiny({"seed=9"}), run, run::Existing::resume); }) ==
         (run / "checkpoint").string() + ": belongs to another scene");
@@ -39,8 +41,9 @@ TEST_CASE("an existing run is refused, resumed or replaced, as asked") {
   CHECK(tree(run).count("frames.pvd") == 0);  // nothing of the old run stays
   CHECK_FALSE(fs::exists(run / "frames"));
   fs::remove(run / "checkpoint");
-  CHECK(message<InputError>([&] { go(tiny({"seed=9", "output.frames="}), run, run::Existing::resume); }) ==
-        run.string() + ": has no checkpoint to resume from; give --force to start again");
+  CHECK(message<InputError>([&] {
+          go(tiny({"seed=9", "output.frames="}), run, run::Existing::resume);
+        }) == run.string() + ": has no checkpoint to resume from; give --force to start again");
 }
 
 TEST_CASE("an empty folder is taken, --resume or not") {
@@ -81,8 +84,9 @@ TEST_CASE("--force keeps what is not chute's in a run's folder") {
 
 TEST_CASE("a scene that cannot start leaves no folder") {
   const Folder folder;
-  CHECK(message<InputError>([&] { go(tiny({"bed.count=3", "bed.diameter=0.5"}), folder / "run", run::Existing::refuse); })
-            .find("bed.count") != std::string::npos);
+  CHECK(message<InputError>([&] {
+          go(tiny({"bed.count=3", "bed.diameter=0.5"}), folder / "run", run::Existing::refuse);
+        }).find("bed.count") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "run"));
 }
 
@@ -108,8 +112,8 @@ TEST_CASE("a damaged checkpoint is refused and left alone") {
 TEST_CASE("a run that leaves physics says who and when, and leaves a checkpoint and run.json") {
   const Folder folder;
   const auto run = folder / "run";
-  const auto deep = tiny({"contact.normal.stiffness=40", "contact.tangential.viscosity=1", "grains.start.velocity_up=-3",
-                          "run.duration=5"});
+  const auto deep = tiny({"contact.normal.stiffness=40", "contact.tangential.viscosity=1",
+                          "grains.start.velocity_up=-3", "run.duration=5"});
   const auto said = message<WorkError>([&] { go(deep, run, run::Existing::refuse); });
   INFO(said);
   CHECK(said.starts_with("the run left physics at t = "));

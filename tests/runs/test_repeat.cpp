@@ -11,17 +11,17 @@ namespace {
 
 /// A small flow that writes every kind of file.
 scene::Scene flow(std::vector<std::string> settings = {}) {
-  settings.insert(settings.begin(), {"grains.count=60", "bed.count=12", "run.duration=12", "contact.normal.stiffness=1e5",
-                                     "contact.tangential.viscosity=150",
-                                     "output.frames={every=2}", "output.series={every=0.5}",
-                                     "output.profiles={from=4, bin=1.0, every=0.1}", "output.impacts={from=4}",
-                                     "output.contacts=true", "output.checkpoint=1.5"});
+  settings.insert(settings.begin(),
+                  {"grains.count=60", "bed.count=12", "run.duration=12", "contact.normal.stiffness=1e5",
+                   "contact.tangential.viscosity=150", "output.frames={every=2}", "output.series={every=0.5}",
+                   "output.profiles={from=4, bin=1.0, every=0.1}", "output.impacts={from=4}",
+                   "output.contacts=true", "output.checkpoint=1.5"});
   return scene::read_scene(CHUTE_SOURCE_DIR "/scenes/demo.toml", settings);
 }
 
 run::RunResult go(const scene::Scene& scene, const fs::path& folder,
-                  run::Existing existing = run::Existing::refuse,
-                  std::function<bool(double)> progress = {}, int threads = 1) {
+                  run::Existing existing = run::Existing::refuse, std::function<bool(double)> progress = {},
+                  int threads = 1) {
   run::RunOptions options;
   options.directory = folder;
   options.existing = existing;
@@ -40,8 +40,8 @@ TEST_CASE("a run writes every file that the scene asks for") {
   CHECK(result.finished);
   const auto files = tree(folder / "a");
   for (const char* name : {"scene.toml", "run.json", "frames.pvd", "frames/000000.vtp", "frames/000006.vtp",
-                           "contacts/000000.vtp", "contacts/000006.vtp", "impacts.vtp", "series.csv", "profiles.csv",
-                           "checkpoint"}) {
+                           "contacts/000000.vtp", "contacts/000006.vtp", "impacts.vtp", "series.csv",
+                           "profiles.csv", "checkpoint"}) {
     INFO(name);
     CHECK(files.count(name) == 1);
   }
@@ -66,7 +66,8 @@ TEST_CASE("the same scene and seed give the same bytes, with any number of threa
 TEST_CASE("an interrupted and resumed run gives the bytes of an uninterrupted one") {
   const Folder folder;
   // contacts that remember have the most to lose
-  const auto scene = flow({"run.duration=25", "output.frames={every=5}", "contact.tangential={law=\"cundall-strack\", "
+  const auto scene = flow({"run.duration=25", "output.frames={every=5}",
+                           "contact.tangential={law=\"cundall-strack\", "
                            "stiffness=3e4, friction=0.5}"});
   const auto whole = go(scene, folder / "whole");
   const auto expected = results(folder / "whole");

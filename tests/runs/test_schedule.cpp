@@ -11,7 +11,8 @@ TEST_CASE("due steps are the nearest to each time, none twice, none left out") {
   for (std::int64_t k = 0; k < 300; ++k) {
     const auto next = schedule.after(step);
     CHECK(next > step);
-    CHECK(std::abs(static_cast<double>(next) * dt - (from + static_cast<double>(k) * every)) <= dt / 2 * (1 + 1e-9));
+    CHECK(std::abs(static_cast<double>(next) * dt - (from + static_cast<double>(k) * every)) <=
+          dt / 2 * (1 + 1e-9));
     CHECK(schedule.index_at(next) == k);
     for (auto between = step + 1; between < next; ++between) CHECK(schedule.index_at(between) == -1);
     step = next;

@@ -43,19 +43,23 @@ TEST_CASE("every key of the design's example is read") {
   REQUIRE(s.output.profiles);
   CHECK(s.output.profiles->from == 200);
   CHECK(s.output.profiles->bin == 1);
-  CHECK(s.output.series.every == 1);       // 400 rows
-  CHECK(s.output.checkpoint == 40);        // a tenth of the run
-  CHECK(s.output.profiles->every == 0.02); // 0.02 √(d/g)
+  CHECK(s.output.series.every == 1);        // 400 rows
+  CHECK(s.output.checkpoint == 40);         // a tenth of the run
+  CHECK(s.output.profiles->every == 0.02);  // 0.02 √(d/g)
 }
 
 TEST_CASE("SI scenes have Earth's gravity and need a density") {
-  const auto s = parse(with("seed = 1", "seed = 1", with("\"reduced\"", "\"SI\"", with("count = 300", "count = 300\ndensity = 2500"))));
+  const auto s =
+      parse(with("seed = 1", "seed = 1",
+                 with("\"reduced\"", "\"SI\"", with("count = 300", "count = 300\ndensity = 2500"))));
   CHECK(s.incline.gravity == 9.81);
   CHECK(s.mean_mass() == Approx(2500 * pi / 6));
 }
 
 TEST_CASE("angles are written in degrees, radians or as a sine") {
-  const auto theta = [](const std::string& line) { return parse(with("angle = \"18 deg\"", line)).incline.theta(); };
+  const auto theta = [](const std::string& line) {
+    return parse(with("angle = \"18 deg\"", line)).incline.theta();
+  };
   CHECK(theta("angle = \"30 deg\"") == Approx(pi / 6));
   CHECK(theta("angle = \"30deg\"") == Approx(pi / 6));
   CHECK(theta("angle = \"0.3 rad\"") == 0.3);
@@ -67,7 +71,8 @@ TEST_CASE("the resolved scene reads back the same, for every scene of the collec
   std::size_t seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(CHUTE_SOURCE_DIR "/scenes")) {
     const auto name = entry.path().filename().string();
-    if (entry.path().extension() != ".toml" || name.starts_with("fig-") || name.starts_with("table-")) continue;  // figure recipes are not scenes
+    if (entry.path().extension() != ".toml" || name.starts_with("fig-") || name.starts_with("table-"))
+      continue;  // figure recipes are not scenes
     INFO(name);
     const auto text = to_toml(read_scene(entry.path()));
     CHECK(to_toml(parse(text)) == text);
@@ -84,7 +89,8 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
         with("kind = \"row\"", "kind = \"disordered-row\"\ngap_max = 0.1"),
         with("integrator = \"gear5\"", "integrator = \"verlet\"\ntime_step = 1e-5"),
         with("title = \"Dense", "title = \"a \\\"quoted\\\" \\\\ title\\n with lines; Dense"),
-        with("frames = { every = 0.5 }", "frames = { every = 0.1, from = 3 }\ncontacts = true\nimpacts = { from = 1 }"),
+        with("frames = { every = 0.5 }",
+             "frames = { every = 0.1, from = 3 }\ncontacts = true\nimpacts = { from = 1 }"),
         with("diameter = { mean = 1.0, std = 0.05 }", "size_ratio = 1.2")}) {
     const auto scene = parse(text);
     const auto resolved = to_toml(scene);
@@ -101,8 +107,8 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
 
 TEST_CASE("settings of the command line win over the file") {
   const auto s = parse(example, {"grains.count=12", "grains.diameter.std=0", "incline.angle=20 deg",
-                                 "contact.normal.restitution=", "contact.normal.damping=3", "title=plain words",
-                                 "output.profiles="});
+                                 "contact.normal.restitution=", "contact.normal.damping=3",
+                                 "title=plain words", "output.profiles="});
   CHECK(s.grains.count == 12);
   CHECK(s.grains.diameter->std == 0);
   CHECK(s.incline.theta() == Approx(20 * pi / 180));

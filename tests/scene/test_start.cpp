@@ -40,7 +40,8 @@ TEST_CASE("gaps of the bed") {
   CHECK(smallest >= 0);
   CHECK(largest <= 0.2);
   CHECK(largest - smallest > 0.1);  // 29 draws from [0, 0.2]
-  const double last = loose.domain.length[0] - loose.grains.position[0][329] + loose.grains.position[0][300] - 1;
+  const double last =
+      loose.domain.length[0] - loose.grains.position[0][329] + loose.grains.position[0][300] - 1;
   CHECK(last >= -1e-12);  // the gap across the period, too
   CHECK(last <= 0.2);
 }
@@ -66,7 +67,8 @@ TEST_CASE("sizes and velocities have the asked mean and spread") {
     CHECK(std::abs(di - 1) <= 0.15);  // cut off at three standard deviations
     d += di, d2 += di * di, v += vi, v2 += vi * vi, u += g.velocity[1][i];
   }
-  const double n = 2000, five_errors = 5 / std::sqrt(n);  // five standard errors of a mean, in standard deviations
+  const double n = 2000,
+               five_errors = 5 / std::sqrt(n);  // five standard errors of a mean, in standard deviations
   CHECK(d / n == Approx(1).margin(0.05 * five_errors));
   CHECK(std::sqrt(d2 / n - d / n * d / n) == Approx(0.05).epsilon(0.1));
   CHECK(v / n == Approx(2).margin(2 * five_errors));

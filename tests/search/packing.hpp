@@ -27,7 +27,8 @@ using Pair = std::tuple<std::int32_t, std::int32_t, double>;  ///< i, j, reach s
 
 inline std::vector<Pair> listed(const search::PairList& pairs) {
   std::vector<Pair> all;
-  for (std::size_t p = 0; p < pairs.size(); ++p) all.emplace_back(pairs.i[p], pairs.j[p], pairs.reach_squared[p]);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    all.emplace_back(pairs.i[p], pairs.j[p], pairs.reach_squared[p]);
   return all;
 }
 
@@ -42,7 +43,8 @@ std::vector<Pair> by_images(const Grains<D>& grains, const Domain<D>& domain, do
         const double d = grains.position[k][j] - grains.position[k][i];
         double best = d * d;
         if (std::isfinite(domain.length[k]))
-          for (int image : {-1, 1}) best = std::min(best, (d + image * domain.length[k]) * (d + image * domain.length[k]));
+          for (int image : {-1, 1})
+            best = std::min(best, (d + image * domain.length[k]) * (d + image * domain.length[k]));
         nearest += best;
       }
       const double reach = grains.radius[i] + grains.radius[j];

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "packing.hpp"
 #include "core/not_a_number.hpp"
+#include "packing.hpp"
 #include "search/neighbour_list.hpp"
 
 using namespace chute;
@@ -104,7 +104,8 @@ TEST_CASE("lists are made anew only when something has moved far enough") {
 
 TEST_CASE("a place that is not a number is reported with its grain") {
   auto grains = packing<2>(20, 5, {{0, 0}}, {{6, 4}}, 3);
-  const auto value = GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
+  const auto value =
+      GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
   const auto isa = GENERATE(Isa::baseline, best_isa());
   search::NeighbourList<2> list({}, {0.2, 1.0}, search::Method::cells, isa);
   list.near(grains);

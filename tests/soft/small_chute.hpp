@@ -4,7 +4,8 @@
 
 namespace chute::test {
 
-/// A small flow on a bumpy line, 18 degrees steep, in reduced units: dense contacts, friction, a bed, a period.
+/// A small flow on a bumpy line, 18 degrees steep, in reduced units: dense contacts, friction, a bed, a
+/// period.
 struct SmallChute {
   static constexpr double stiffness = 1e5, restitution = 0.6;
   std::int64_t bed = 8, columns = 6, rows = 4;
@@ -24,8 +25,10 @@ struct SmallChute {
     Grains<2> g;
     for (std::int64_t i = 0; i < columns * rows; ++i) {
       const double d = random.uniform(0.9, 1.1);
-      add_ball<2>(g, {{(0.5 + static_cast<double>(i % columns)) * static_cast<double>(bed) / static_cast<double>(columns),
-                       1.5 + 1.2 * static_cast<double>(i / columns)}},
+      add_ball<2>(g,
+                  {{(0.5 + static_cast<double>(i % columns)) * static_cast<double>(bed) /
+                        static_cast<double>(columns),
+                    1.5 + 1.2 * static_cast<double>(i / columns)}},
                   {{2 + random.normal(), random.normal()}}, d / 2, d * d * d);
     }
     for (std::int64_t i = 0; i < bed; ++i)

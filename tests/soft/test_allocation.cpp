@@ -18,11 +18,15 @@ void* counted(std::size_t size, std::size_t align) {
 
 void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
 void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t align) { return counted(size, static_cast<std::size_t>(align)); }
+void* operator new(std::size_t size, std::align_val_t align) {
+  return counted(size, static_cast<std::size_t>(align));
+}
 void* operator new[](std::size_t size, std::align_val_t align) {
   return counted(size, static_cast<std::size_t>(align));
 }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted(size, alignof(std::max_align_t));
+}
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
   return counted(size, alignof(std::max_align_t));
 }
@@ -49,8 +53,8 @@ TEST_CASE("allocations are counted") {
 
 namespace {
 
-/// Arrays grow when there are more pairs than ever before. To have seen it all, the engine first runs the very way
-/// that is then counted.
+/// Arrays grow when there are more pairs than ever before. To have seen it all, the engine first runs the
+/// very way that is then counted.
 template <int D>
 void check_no_allocation(soft::SoftEngine<D>& engine, std::int64_t warm_up, std::int64_t steps) {
   engine.advance_to(warm_up);

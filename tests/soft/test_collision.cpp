@@ -49,7 +49,8 @@ const laws::Contact acetate_law = smooth(Acetate::stiffness, Acetate::damping);
 }  // namespace
 
 TEST_CASE("the stated material has the stated restitution") {
-  CHECK(acetate.restitution() == Approx(0.87).margin(1e-4));  // the truth of the cases below, against the thesis
+  CHECK(acetate.restitution() ==
+        Approx(0.87).margin(1e-4));  // the truth of the cases below, against the thesis
 }
 
 TEST_CASE("two acetate spheres bounce with e_n = 0.87 at t_n/50, gear5") {
@@ -63,9 +64,9 @@ TEST_CASE("two acetate spheres bounce with e_n = 0.87 at t_n/50, gear5") {
   CHECK(worst < 0.0005);
 }
 
-// Law (3.1) pulls with γ_n e_n v at the end of a contact, so a step that the contact misses or has too many there
-// changes e_n by up to γ_n δt e_n / m_eff. Which it is depends on where in a step the contact began: over all
-// phases, as in a flow, it averages out.
+// Law (3.1) pulls with γ_n e_n v at the end of a contact, so a step that the contact misses or has too many
+// there changes e_n by up to γ_n δt e_n / m_eff. Which it is depends on where in a step the contact began:
+// over all phases, as in a flow, it averages out.
 TEST_CASE("two acetate spheres bounce with e_n = 0.87, whatever the phase of the step") {
   const auto scheme = GENERATE(soft::Scheme::gear5, soft::Scheme::verlet);
   const double per = GENERATE(50.0, 50.3, 50.8);
@@ -82,7 +83,8 @@ TEST_CASE("a contact lasts t_n (3.3)") {
   const double t_n = acetate.contact_time();
   for (double steps : {20.5, 100.5, 1000.5}) {  // not a whole number: the count may be the one below or above
     const double dt = t_n / steps;
-    for (const auto& b : HeadOn{acetate_law, dt, scheme}.at_phases(8)) CHECK(std::abs(b.contact_time - t_n) <= dt);
+    for (const auto& b : HeadOn{acetate_law, dt, scheme}.at_phases(8))
+      CHECK(std::abs(b.contact_time - t_n) <= dt);
   }
 }
 
@@ -128,7 +130,8 @@ TEST_CASE("free flight is a parabola") {
   const double t = engine.time();
   CHECK(t == Approx(10));
   const auto view = engine.grains();
-  // a polynomial of second degree: exact but for rounding, 1e-16 of the farthest way (45) in each of 10^4 steps
+  // a polynomial of second degree: exact but for rounding, 1e-16 of the farthest way (45) in each of 10^4
+  // steps
   CHECK(view.unwrapped(0, 0) == Approx(0.1 + 3 * t + 0.5 * 0.3 * t * t).epsilon(1e-12));
   CHECK(view.unwrapped(0, 1) == Approx(2 + 4 * t - 0.5 * 0.9 * t * t).margin(5e-11));
   CHECK(view.position[0][0] >= 0);
@@ -138,6 +141,7 @@ TEST_CASE("free flight is a parabola") {
   CHECK(view.spin[0][0] == -7);
   CHECK(view.angle[0][0] == Approx(-7 * t).epsilon(1e-12));
   const auto e = engine.energy();
-  CHECK(e.gravity_work == Approx(2 * (0.3 * (3 * t + 0.15 * t * t) - 0.9 * (4 * t - 0.45 * t * t))).epsilon(1e-10));
+  CHECK(e.gravity_work ==
+        Approx(2 * (0.3 * (3 * t + 0.15 * t * t) - 0.9 * (4 * t - 0.45 * t * t))).epsilon(1e-10));
   CHECK(std::abs(e.residual()) < 1e-10 * e.translation);
 }

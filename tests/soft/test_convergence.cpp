@@ -11,8 +11,8 @@ struct Error {
   double place, speed;
 };
 
-/// One grain on a damped spring, which is what the overlap of a contact obeys, from place 0 with speed 1, by the
-/// integrator alone. All derivatives are given at the start, so that only the scheme's own error shows.
+/// One grain on a damped spring, which is what the overlap of a contact obeys, from place 0 with speed 1, by
+/// the integrator alone. All derivatives are given at the start, so that only the scheme's own error shows.
 Error oscillate(soft::Scheme scheme, int steps, double damping) {
   const Oscillator truth{1, damping, 1};
   const double end = 2.5, dt = end / steps;
@@ -20,7 +20,9 @@ Error oscillate(soft::Scheme scheme, int steps, double damping) {
   add_ball<2>(grains, {{0, 0}}, {{1, 0}}, 1, 1);
   std::array<Array, 2> force{Array(1), Array(1)};
   std::array<Array, 1> torque{Array(1)};
-  const auto pull = [&] { force[0][0] = -truth.k * grains.position[0][0] - truth.gamma * grains.velocity[0][0]; };
+  const auto pull = [&] {
+    force[0][0] = -truth.k * grains.position[0][0] - truth.gamma * grains.velocity[0][0];
+  };
   soft::Integrator<2> integrator(scheme, dt, {}, {});
   pull();
   integrator.start(grains, force, torque);
@@ -38,7 +40,8 @@ Error oscillate(soft::Scheme scheme, int steps, double damping) {
   return {std::abs(grains.position[0][0] - exact[0]), std::abs(grains.velocity[0][0] - exact[1])};
 }
 
-/// The same from inside a contact of two grains, by the whole engine, which starts without higher derivatives.
+/// The same from inside a contact of two grains, by the whole engine, which starts without higher
+/// derivatives.
 Error compress(soft::Scheme scheme, int steps, double damping) {
   const Oscillator truth{1e4, damping, 0.5};
   const double end = 0.5 * truth.contact_time(), dt = end / steps, x0 = 1e-3, v0 = 0.3;
@@ -79,8 +82,8 @@ double slip_left(soft::Scheme scheme, double rate) {
 
 }  // namespace
 
-// Five values (r and four derivatives) carried exactly: the scheme is of fourth order. Coefficients applied to the
-// plain derivatives, as (2.13) is printed, or 19/120 for 19/90 in a damped problem, would show here.
+// Five values (r and four derivatives) carried exactly: the scheme is of fourth order. Coefficients applied
+// to the plain derivatives, as (2.13) is printed, or 19/120 for 19/90 in a damped problem, would show here.
 TEST_CASE("gear5 is of fourth order inside a damped contact") {
   const auto p = order(oscillate, soft::Scheme::gear5, 0.2);
   CHECK(p.place == Approx(4).margin(0.15));
@@ -98,18 +101,21 @@ TEST_CASE("gear5 started inside a contact is of second order, and accurate") {
 
 // Damping sees the velocity of the half step: first order with damping, second without.
 TEST_CASE("velocity Verlet is of second order, of first where damping acts") {
-  for (const auto& p : {order(oscillate, soft::Scheme::verlet, 0), order(compress, soft::Scheme::verlet, 0)}) {
+  for (const auto& p :
+       {order(oscillate, soft::Scheme::verlet, 0), order(compress, soft::Scheme::verlet, 0)}) {
     CHECK(p.place == Approx(2).margin(0.1));
     CHECK(p.speed == Approx(2).margin(0.1));
   }
-  for (const auto& p : {order(oscillate, soft::Scheme::verlet, 0.2), order(compress, soft::Scheme::verlet, 20)}) {
+  for (const auto& p :
+       {order(oscillate, soft::Scheme::verlet, 0.2), order(compress, soft::Scheme::verlet, 20)}) {
     CHECK(p.place > 0.95);
     CHECK(p.speed > 0.95);
   }
 }
 
-// Regularised friction lets slip decay at the rate 7/2 γ_s / m_eff. The largest eigenvalue of a gear5 step for
-// v' = −λ v reaches −1 at λ δt = 0.30, of a Verlet step at 2: `chute check` tells how close a scene comes.
+// Regularised friction lets slip decay at the rate 7/2 γ_s / m_eff. The largest eigenvalue of a gear5 step
+// for v' = −λ v reaches −1 at λ δt = 0.30, of a Verlet step at 2: `chute check` tells how close a scene
+// comes.
 TEST_CASE("slip decays stably below λ δt = 0.3 with gear5, below 2 with Verlet") {
   CHECK(slip_left(soft::Scheme::gear5, 0.28) < 1e-3);
   CHECK(slip_left(soft::Scheme::gear5, 0.32) > 1e3);

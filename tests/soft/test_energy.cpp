@@ -11,8 +11,8 @@ struct Balance {
   double gravity_work, residual;
 };
 
-/// What gravity put in and what neither is stored nor counted as loss. All but the losses is computed here, from
-/// places and velocities.
+/// What gravity put in and what neither is stored nor counted as loss. All but the losses is computed here,
+/// from places and velocities.
 Balance balance(double steps_per_contact, double duration, soft::Scheme scheme) {
   const SmallChute chute;
   const auto s = chute.setup(steps_per_contact, scheme);
@@ -30,7 +30,8 @@ Balance balance(double steps_per_contact, double duration, soft::Scheme scheme) 
   double work = 0, elastic = 0;
   for (std::size_t i = 0; i < start.moving; ++i)
     for (int k = 0; k < 2; ++k)
-      work += start.mass[i] * s.gravity[k] * (view.unwrapped(i, static_cast<std::size_t>(k)) - start.position[k][i]);
+      work += start.mass[i] * s.gravity[k] *
+              (view.unwrapped(i, static_cast<std::size_t>(k)) - start.position[k][i]);
   for (const auto& c : engine.contacts()) elastic += 0.5 * SmallChute::stiffness * c.overlap * c.overlap;
   const double gained = moving_energy(engine.state()) - moving_energy(start) + elastic;
   CHECK(e.gravity_work == Approx(work).epsilon(1e-10));
@@ -43,14 +44,17 @@ Balance balance(double steps_per_contact, double duration, soft::Scheme scheme) 
 
 }  // namespace
 
-// Losses are power times step, summed at the predicted velocities. Where grains slip at the rate that one step
-// resolves (γ_s 7/2 δt / m_eff = 0.1 here at t_n/50) gear5 closes the account to a thousandth of gravity's work.
+// Losses are power times step, summed at the predicted velocities. Where grains slip at the rate that one
+// step resolves (γ_s 7/2 δt / m_eff = 0.1 here at t_n/50) gear5 closes the account to a thousandth of
+// gravity's work.
 TEST_CASE("what gravity puts in is stored or lost, and the residual falls with the step") {
   for (const double duration : {5.0, 20.0}) {
-    const auto usual = balance(50, duration, soft::Scheme::gear5), fine = balance(100, duration, soft::Scheme::gear5),
+    const auto usual = balance(50, duration, soft::Scheme::gear5),
+               fine = balance(100, duration, soft::Scheme::gear5),
                finest = balance(200, duration, soft::Scheme::gear5);
-    INFO("residual over work: " << usual.residual / usual.gravity_work << ", " << fine.residual / fine.gravity_work
-                                << ", " << finest.residual / finest.gravity_work);
+    INFO("residual over work: " << usual.residual / usual.gravity_work << ", "
+                                << fine.residual / fine.gravity_work << ", "
+                                << finest.residual / finest.gravity_work);
     CHECK(usual.gravity_work > 50);
     CHECK(std::abs(usual.residual) < 1e-3 * usual.gravity_work);
     CHECK(std::abs(fine.residual) < 0.5 * std::abs(usual.residual));
@@ -58,13 +62,15 @@ TEST_CASE("what gravity puts in is stored or lost, and the residual falls with t
   }
 }
 
-// Verlet's forces see the velocity of the half step before, at which sliding grains are faster: losses are counted
-// high in first order.
+// Verlet's forces see the velocity of the half step before, at which sliding grains are faster: losses are
+// counted high in first order.
 TEST_CASE("Verlet closes the account in first order") {
   const auto usual = balance(50, 20, soft::Scheme::verlet), finest = balance(200, 20, soft::Scheme::verlet);
-  INFO("residual over work: " << usual.residual / usual.gravity_work << ", " << finest.residual / finest.gravity_work);
+  INFO("residual over work: " << usual.residual / usual.gravity_work << ", "
+                              << finest.residual / finest.gravity_work);
   CHECK(std::abs(usual.residual) < 0.05 * usual.gravity_work);
-  CHECK(std::abs(finest.residual / finest.gravity_work) < 0.5 * std::abs(usual.residual / usual.gravity_work));
+  CHECK(std::abs(finest.residual / finest.gravity_work) <
+        0.5 * std::abs(usual.residual / usual.gravity_work));
 }
 
 TEST_CASE("a head-on collision loses 1/2 m_eff v² (1 − e_n²), nothing by shear") {

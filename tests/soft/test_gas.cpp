@@ -79,8 +79,8 @@ void check_momentum(const laws::Contact& contact, soft::Scheme scheme, std::int6
   const std::int64_t steps = 4000;
   engine.advance_to(steps);
   CHECK(engine.take_impacts().size() > 20);
-  // A force is added to one grain and taken from the other, so the sum is off by the rounding of each addition:
-  // at most 2^-53 of a velocity per grain and step, and a scheme's pass has some ten additions.
+  // A force is added to one grain and taken from the other, so the sum is off by the rounding of each
+  // addition: at most 2^-53 of a velocity per grain and step, and a scheme's pass has some ten additions.
   const double rounding = 10 * std::pow(2.0, -53) * static_cast<double>(steps) * scale;
   CHECK(norm(momentum(engine.state()) - start) < rounding);
   CHECK(rounding < 1e-9 * scale);
@@ -97,8 +97,8 @@ TEST_CASE("a frictionless elastic gas keeps its energy over 10^4 contacts") {
   }
 }
 
-// A contact that begins within a step costs an energy error of second order, either sign. The mean square over
-// samples shows the size of one such error; the sum of 10^4 random ones would show mostly luck.
+// A contact that begins within a step costs an energy error of second order, either sign. The mean square
+// over samples shows the size of one such error; the sum of 10^4 random ones would show mostly luck.
 TEST_CASE("the energy error of the elastic gas falls with the step") {
   for (const auto scheme : {soft::Scheme::gear5, soft::Scheme::verlet}) {
     const double rough = drift(scheme, 25, 3000).per_sample, usual = drift(scheme, 50, 3000).per_sample,

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double bead = 0.5, ball = 0.75, stiffness = 1e7;
 
-/// A ball thrown at one bead that lies at the origin, and when and where it meets it: found by halving, in the test.
+/// A ball thrown at one bead that lies at the origin, and when and where it meets it: found by halving, in
+/// the test.
 struct Throw {
   Vec<2> place, velocity, gravity;
   Vec<2> at(double t) const { return place + t * velocity + (0.5 * t * t) * gravity; }
@@ -27,9 +28,9 @@ struct Throw {
 }  // namespace
 
 TEST_CASE("an impact is recorded as it was just before any force acted") {
-  const auto thrown = GENERATE(Throw{{{0.4, 3}}, {{0.1, 0}}, {{0.2, -0.98}}},     // downhill side
+  const auto thrown = GENERATE(Throw{{{0.4, 3}}, {{0.1, 0}}, {{0.2, -0.98}}},        // downhill side
                                Throw{{{-0.9, 2}}, {{-0.05, -0.3}}, {{0.2, -0.98}}},  // uphill side
-                               Throw{{{-3, 1.1}}, {{2.5, 0.4}}, {{0.1, -0.5}}});  // flies in from behind
+                               Throw{{{-3, 1.1}}, {{2.5, 0.4}}, {{0.1, -0.5}}});     // flies in from behind
   Grains<2> grains;
   add_ball<2>(grains, thrown.place, thrown.velocity, ball, 1);
   add_ball<2>(grains, {{0, 0}}, {{0, 0}}, bead, 1, false);

@@ -22,7 +22,8 @@ double spin_and_orbit(const Grains<2>& g) {
   return sum;
 }
 
-/// Ball i hits ball j, which lies in direction x, with v_s = ψ_i |v_n|; a part of the slip comes from the spins.
+/// Ball i hits ball j, which lies in direction x, with v_s = ψ_i |v_n|; a part of the slip comes from the
+/// spins.
 After oblique(double psi, double restitution, const laws::Contact& contact, double stiffness = k,
               double steps = 200) {
   const double damp = -std::log(restitution) / pi;
@@ -53,8 +54,8 @@ laws::Contact coulomb(double e_n, double viscosity, double friction, double stif
 
 // γ_s at which slip decays by 3.5 γ_s δt / m_eff = 0.16 per step of t_n/200: fast against t_n, and stable.
 double sticky(double stiffness = k) { return 0.16 * 200 / 3.5 * m_eff / (pi / std::sqrt(stiffness / m_eff)); }
-// While they touch, the line between the centres turns by up to |ψ| v_n t_n / 2R = 2.3e-4 |ψ|. That makes a part of
-// the tangential velocity (ψ) a normal one, and of the normal velocity (1) a tangential one.
+// While they touch, the line between the centres turns by up to |ψ| v_n t_n / 2R = 2.3e-4 |ψ|. That makes a
+// part of the tangential velocity (ψ) a normal one, and of the normal velocity (1) a tangential one.
 double turning(double psi) { return (1 + std::abs(psi)) * std::abs(psi) * 2.3e-4; }
 
 }  // namespace
@@ -65,12 +66,14 @@ TEST_CASE("a sliding impact takes 7/2 μ (1 + e_n) of ψ (2.28, corrected)") {
     const auto after = oblique(psi, 1, coulomb(1, sticky(), mu));
     INFO("psi " << psi);
     CHECK(after.psi_n == Approx(1).margin(1e-3 + turning(psi)));
-    CHECK(after.psi_s == Approx(std::copysign(std::abs(psi) - 3.5 * mu * 2, psi)).margin(2e-3 + 2 * turning(psi)));
+    CHECK(after.psi_s ==
+          Approx(std::copysign(std::abs(psi) - 3.5 * mu * 2, psi)).margin(2e-3 + 2 * turning(psi)));
   }
 }
 
-// The law pulls at the end of a damped contact, and Coulomb's limit takes |F_n|: the slip sees ∫|F_n| dt instead of
-// (1 + e_n) m_eff v_n. The parting speed is greatest, v*, where F_n changes sign: the integral is 1 + 2 v* − e_n.
+// The law pulls at the end of a damped contact, and Coulomb's limit takes |F_n|: the slip sees ∫|F_n| dt
+// instead of (1 + e_n) m_eff v_n. The parting speed is greatest, v*, where F_n changes sign: the integral is
+// 1 + 2 v* − e_n.
 TEST_CASE("a damped sliding impact takes 7/2 μ of the whole normal impulse") {
   const double e_n = 0.6, mu = 0.2, psi = 4;
   const double damp = -std::log(e_n) / pi;  // decay over frequency
@@ -97,8 +100,8 @@ TEST_CASE("slip decays as exp(−7/2 γ_s t / m_eff) where Coulomb's limit is fa
   CHECK(after.psi_s == Approx(0.5 * left).margin(2e-3 * 0.5 + 2 * turning(0.5)));
 }
 
-// The thesis lets the tangential force act at R from each centre, not at R − ξ/2. The pair then gains ∫ ξ F_s dt:
-// sliding and elastic, with F_s = ∓μ k ξ, that is μ m_eff v_n² t_n / 2, which goes to 0 for stiff grains.
+// The thesis lets the tangential force act at R from each centre, not at R − ξ/2. The pair then gains ∫ ξ F_s
+// dt: sliding and elastic, with F_s = ∓μ k ξ, that is μ m_eff v_n² t_n / 2, which goes to 0 for stiff grains.
 TEST_CASE("angular momentum is kept but for the lever arm R instead of R − ξ/2") {
   const double mu = 0.2, psi = 4;
   for (double stiffness : {1e6, 1e8}) {

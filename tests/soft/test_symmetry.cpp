@@ -9,7 +9,8 @@ namespace {
 
 /// Viscous friction, and laws that remember: directions are part of a memory in 3D.
 const std::vector<laws::Contact> kinds{
-    {laws::SpringDashpot::from_restitution(1e5, 0.8), laws::RegularisedCoulomb{30, 0.3, laws::MassScaling::none}},
+    {laws::SpringDashpot::from_restitution(1e5, 0.8),
+     laws::RegularisedCoulomb{30, 0.3, laws::MassScaling::none}},
     {laws::WaltonBraun::from_restitution(1e5, 0.8),
      laws::CundallStrack{laws::PairCoefficient{3e4}, laws::CutOffSpring{0.3, true}}}};
 
@@ -114,7 +115,8 @@ TEST_CASE("a mirrored 2D scene runs to the mirrored bytes") {
   auto mirrored = handful<2>();
   for (auto* field : {&mirrored.position[0], &mirrored.velocity[0], &mirrored.spin[0]})
     for (double& x : *field) x = -x;
-  const auto straight = run<2>(handful<2>(), {{0.2, -1}}, contact), got = run<2>(mirrored, {{-0.2, -1}}, contact);
+  const auto straight = run<2>(handful<2>(), {{0.2, -1}}, contact),
+             got = run<2>(mirrored, {{-0.2, -1}}, contact);
   for (std::size_t i = 0; i < got.size(); ++i) {
     CHECK(got.position[0][i] == -straight.position[0][i]);
     CHECK(got.position[1][i] == straight.position[1][i]);

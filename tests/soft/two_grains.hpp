@@ -10,10 +10,10 @@ inline constexpr double pi = std::numbers::pi;
 
 /// The thesis's acetate spheres (3.1): two of them have e_n = 0.87.
 struct Acetate {
-  static constexpr double radius = 3e-3;      // m
-  static constexpr double mass = 1.48e-4;     // kg
-  static constexpr double stiffness = 7.32e6; // N/m
-  static constexpr double damping = 2.06;     // kg/s
+  static constexpr double radius = 3e-3;       // m
+  static constexpr double mass = 1.48e-4;      // kg
+  static constexpr double stiffness = 7.32e6;  // N/m
+  static constexpr double damping = 2.06;      // kg/s
 };
 
 /// A solid sphere, I = 2/5 m R².
@@ -24,8 +24,8 @@ void add_ball(Grains<D>& grains, const Vec<D>& place, const Vec<D>& velocity, do
   for (int k = 0; k < D; ++k) grains.velocity[k].back() = velocity[k];
 }
 
-/// Damped oscillator m_eff ξ'' = −k ξ − γ ξ' that the overlap of a contact obeys: thesis (3.1) to (3.3), written out
-/// here and not taken from src/laws.
+/// Damped oscillator m_eff ξ'' = −k ξ − γ ξ' that the overlap of a contact obeys: thesis (3.1) to (3.3),
+/// written out here and not taken from src/laws.
 struct Oscillator {
   double k, gamma, m_eff;
   double decay() const { return gamma / (2 * m_eff); }
@@ -66,7 +66,8 @@ std::int64_t through_one_contact(soft::SoftEngine<D>& engine, std::int64_t most 
 }
 
 inline laws::Contact smooth(double stiffness, double damping) {
-  return {laws::SpringDashpot::from_damping(stiffness, damping, laws::MassScaling::none), laws::Frictionless{}};
+  return {laws::SpringDashpot::from_damping(stiffness, damping, laws::MassScaling::none),
+          laws::Frictionless{}};
 }
 
 }  // namespace chute::test
