@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
+#include "run/flow.hpp"
 
 namespace chute::app {
 namespace {
@@ -52,9 +53,24 @@ void show_table(const fs::path& path) {
   }
 }
 
+void show_flow(const fs::path& path) {
+  measure::Flow flow;
+  try {
+    flow = run::read_flow(path);
+  } catch (const InputError&) {
+    return;  // a run that has not written any series yet
+  }
+  const auto text = [](const measure::Estimate& e) {
+    return e.error ? fmt::format("{:.6g} ± {:.2g}", e.mean, *e.error) : fmt::format("{:.6g}", e.mean);
+  };
+  fmt::print("the flow is {}; from t = {:.6g} on: v_x = {}, omega = {}\n", measure::name(flow.verdict),
+             flow.from, text(flow.v_x), text(flow.omega));
+}
+
 void show_run(const fs::path& path) {
   if (!fs::exists(path / "run.json")) throw InputError(path.string() + ": not a run directory (no run.json)");
   fmt::print("{}", read_file(path / "run.json"));
+  show_flow(path);
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(path)) {
     const auto name = entry.path().filename().string();

@@ -163,6 +163,17 @@ void TomlReader::value(std::string_view key, double& target, Range range) {
   target = x;
 }
 
+void TomlReader::number_or_word(std::string_view key, std::optional<double>& target, std::string_view word,
+                                Range range) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  if (node->is_number()) return value(key, target.emplace(), range);
+  if (node->value<std::string_view>() != word)
+    fail(key, fmt::format("{} is neither a number nor \"{}\"", shown(*node), word));
+  target.reset();
+}
+
 void TomlReader::value(std::string_view key, std::int64_t& target, Range range) {
   know(key);
   const toml::node* node = table_->get(key);

@@ -79,6 +79,10 @@ class TomlReader {
     target = std::move(read);
   }
 
+  /// A number, or the given word, which leaves `target` empty.
+  void number_or_word(std::string_view key, std::optional<double>& target, std::string_view word,
+                      Range range = any_number);
+
   template <class T, class... Rule>
   void required(std::string_view key, T& target, Rule... rule) {
     know(key);
@@ -172,6 +176,10 @@ class TomlWriter {
   template <class T, class... Rule>
   void value(std::string_view key, const std::optional<T>& optional, Rule... rule) {
     if (optional) value(key, *optional, rule...);
+  }
+  void number_or_word(std::string_view key, const std::optional<double>& optional, std::string_view word,
+                      Range = any_number) {
+    optional ? value(key, *optional) : value(key, std::string(word));
   }
   template <class T, class... Rule>
   void required(std::string_view key, const T& v, Rule... rule) {

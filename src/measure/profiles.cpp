@@ -26,12 +26,13 @@ std::optional<double> block_error(const std::vector<double>& values) {
 
 }  // namespace
 
-Profiles::Profiles(double length, double bin, double from, double until)
-    : length_(length), bin_(bin), from_(from), until_(until) {}
+Profiles::Profiles(double length, double bin, double from, double until, std::size_t blocks)
+    : length_(length), bin_(bin), from_(from), until_(until), samples_(blocks), sums_(blocks) {}
 
 void Profiles::sample(const GrainsView& grains) {
   const double part = until_ > from_ ? (grains.time - from_) / (until_ - from_) : 0;  // 0/0 is no block
-  const auto block = static_cast<std::size_t>(std::clamp(part * blocks, 0.0, blocks - 1.0));
+  const auto blocks = static_cast<double>(samples_.size());
+  const auto block = static_cast<std::size_t>(std::clamp(part * blocks, 0.0, blocks - 1));
   auto& bins = sums_[block];
   ++samples_[block];
   for (std::size_t i = 0; i < grains.moving; ++i) {
@@ -72,23 +73,43 @@ struct Profiles::Means {
         omega(s.omega / s.count) {}
 };
 
-std::vector<ProfileBin> Profiles::result() const {
+/// The blocks that count, those with samples that begin at `start` or later.
+std::vector<std::size_t> Profiles::blocks_from(double start) const {
+  std::vector<std::size_t> counting;
+  const double width = (until_ - from_) / static_cast<double>(samples_.size());
+  for (std::size_t block = samples_.size(); block-- > 0;) {
+    const bool late = from_ + static_cast<double>(block) * width >= start - 1e-9 * width;
+    if (samples_[block] > 0 && (late || counting.empty())) counting.insert(counting.begin(), block);
+  }
+  return counting;
+}
+
+std::vector<ProfileBin> Profiles::result(double start) const {
+  constexpr std::size_t stretches = 10;
+  const auto counting = blocks_from(start);
   std::size_t highest = 0;
-  for (const auto& bins : sums_) highest = std::max(highest, bins.size());
+  for (const auto block : counting) highest = std::max(highest, sums_[block].size());
   std::vector<ProfileBin> profile;
   for (std::size_t b = 0; b < highest; ++b) {
-    Sums total;
-    double samples = 0;
+    Sums total, stretch;
+    double samples = 0, stretch_samples = 0;
     std::vector<Means> blocks_means;
-    for (std::size_t block = 0; block < blocks; ++block) {
-      if (samples_[block] == 0) continue;
-      const Sums s = b < sums_[block].size() ? sums_[block][b] : Sums{};
-      total += s;
-      samples += static_cast<double>(samples_[block]);
-      blocks_means.emplace_back(s, static_cast<double>(samples_[block]), length_ * bin_);
+    for (std::size_t k = 0; k < counting.size(); ++k) {
+      const auto& bins = sums_[counting[k]];
+      if (b < bins.size()) stretch += bins[b];
+      stretch_samples += static_cast<double>(samples_[counting[k]]);
+      // With many blocks, several make a stretch.
+      if (counting.size() > stretches && k + 1 < counting.size() &&
+          (k + 1) * stretches / counting.size() == k * stretches / counting.size())
+        continue;
+      blocks_means.emplace_back(stretch, stretch_samples, length_ * bin_);
+      total += stretch;
+      samples += stretch_samples;
+      stretch = {};
+      stretch_samples = 0;
     }
-    // The mean is that of the whole window, so that σ counts slow changes of the flow too; blocks only give
-    // the error.
+    // The mean is that of the whole window, so that σ counts slow changes of the flow too; stretches only
+    // give the error.
     const Means mean(total, samples, length_ * bin_);
     const auto estimate = [&](double Means::*member) {
       std::vector<double> values;

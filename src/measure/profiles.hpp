@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "core/grains.hpp"
+#include "measure/estimate.hpp"
 
 namespace chute::measure {
-
-/// A mean with its standard error, which is empty where it is not known. The mean is NaN where nothing was
-/// seen.
-struct Estimate {
-  double mean;
-  std::optional<double> error;
-};
 
 /// One bin of a profile over the height h above the centres of the bed.
 struct ProfileBin {
@@ -26,19 +20,20 @@ struct ProfileBin {
   Estimate half_shear;  ///< ½ ∂v_x/∂h from the bins above and below; what ω is in simple shear (thesis 5.2.2)
 };
 
-/// Time averages over horizontal layers of a 2D flow. Errors are standard errors over `blocks` equal
-/// stretches of the averaging window, so that they count correlated samples as what they are.
+/// Time averages over horizontal layers of a 2D flow. Errors are standard errors over ten stretches of the
+/// averaging window, so that they count correlated samples as what they are.
 class Profiles {
  public:
-  static constexpr std::size_t blocks = 10;
-
-  /// `length` of the line; layers are `bin` high; averages run over [from, until].
-  Profiles(double length, double bin, double from, double until);
+  /// `length` of the line; layers are `bin` high. Samples lie in [from, until], which is cut into `blocks`:
+  /// that is how finely `result` can choose what counts.
+  Profiles(double length, double bin, double from, double until, std::size_t blocks = 10);
 
   void sample(const GrainsView& grains);
 
-  /// Bins from the bed up to the highest that ever held a grain. Empty if nothing was sampled.
-  std::vector<ProfileBin> result() const;
+  /// Bins from the bed up to the highest that ever held a grain. Only blocks that begin at `start` or later
+  /// count, and at least the last one. Empty if nothing was sampled.
+  std::vector<ProfileBin> result(double start) const;
+  std::vector<ProfileBin> result() const { return result(from_); }
 
   template <class Archive>
   void serialize(Archive& a) {
@@ -60,8 +55,10 @@ class Profiles {
   };
   struct Means;
   double length_, bin_, from_, until_;
-  std::vector<std::int64_t> samples_ = std::vector<std::int64_t>(blocks);
-  std::vector<std::vector<Sums>> sums_ = std::vector<std::vector<Sums>>(blocks);  // [block][bin]
+  std::vector<std::int64_t> samples_;
+  std::vector<std::vector<Sums>> sums_;  // [block][bin]
+
+  std::vector<std::size_t> blocks_from(double start) const;
 };
 
 }  // namespace chute::measure

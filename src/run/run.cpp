@@ -20,6 +20,7 @@
 #include "measure/profiles.hpp"
 #include "measure/series.hpp"
 #include "run/engine_factory.hpp"
+#include "run/flow.hpp"
 #include "run/schedule.hpp"
 #include "run/version.hpp"
 
@@ -55,10 +56,12 @@ class Run {
     checkpoint_due_ = Schedule(out.checkpoint, out.checkpoint, dt_);
     if (out.frames) frames_due_ = Schedule(out.frames->from, out.frames->every, dt_);
     if (out.profiles) {
-      profiles_due_ = Schedule(out.profiles->from, *out.profiles->every, dt_);
+      const double from = out.profiles->from.value_or(0);
+      profiles_due_ = Schedule(from, *out.profiles->every, dt_);
+      const std::size_t blocks = out.profiles->from ? 10 : 64;
       const auto add = [&](const char* file, double bin) {
         profiles_.push_back(
-            {file, measure::Profiles(made_.domain.length[0], bin, out.profiles->from, scene.duration)});
+            {file, measure::Profiles(made_.domain.length[0], bin, from, scene.duration, blocks)});
       };
       add("profiles.csv", out.profiles->bin);
       if (out.profiles->fine) add("profiles_fine.csv", *out.profiles->fine);
@@ -227,12 +230,15 @@ class Run {
         {"h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "v_x", "v_x_err", "v_y", "v_y_err",
          "sigma_x", "sigma_x_err", "sigma_y", "sigma_y_err", "omega", "omega_err", "half_shear",
          "half_shear_err"});
-    for (const auto& b : file.profiles.result())
+    const auto& spec = *scene_.output.profiles;
+    for (const auto& b : spec.from ? file.profiles.result() : file.profiles.result(flow().from))
       csv.row({b.h, b.grains, b.eta.mean, b.eta.error, b.eta_exact.mean, b.eta_exact.error, b.v_x.mean,
                b.v_x.error, b.v_y.mean, b.v_y.error, b.sigma_x.mean, b.sigma_x.error, b.sigma_y.mean,
                b.sigma_y.error, b.omega.mean, b.omega.error, b.half_shear.mean, b.half_shear.error});
     write_atomically(directory_.file(file.name), csv.text());
   }
+
+  measure::Flow flow() { return judge_run(series_, scene_, engine().grains()); }
 
   void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {
     utsname machine{};
@@ -252,6 +258,7 @@ class Run {
                                 {"time", engine().time()},
                                 {"end", state}};
     if (!why.empty()) json["why"] = why;
+    if (!series_.empty()) json["flow"] = to_json(flow());
     // a command line may hold any bytes
     write_atomically(directory_.file("run.json"),
                      json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");

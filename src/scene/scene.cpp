@@ -138,7 +138,7 @@ static void describe(Archive& a, Every& every) {
 
 template <class Archive>
 static void describe(Archive& a, ProfileSpec& profiles) {
-  a.value("from", profiles.from, non_negative);
+  a.number_or_word("from", profiles.from, "steady", non_negative);
   a.value("bin", profiles.bin, non_negative);
   a.value("fine", profiles.fine, positive);
   a.value("every", profiles.every, positive);

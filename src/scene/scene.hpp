@@ -84,8 +84,9 @@ struct Every {
   double every = 0, from = 0;
 };
 struct ProfileSpec {
-  double from = 0;
-  double bin = 0;               ///< height of a bin; default one bed diameter
+  std::optional<double> from =
+      0;           ///< empty, written "steady": from when the flow settled, found from the run itself
+  double bin = 0;  ///< height of a bin; default one bed diameter
   std::optional<double> fine;   ///< height of the bins of a second profile, in profiles_fine.csv
   std::optional<double> every;  ///< time between samples; default 0.02 √(d/g)
 };

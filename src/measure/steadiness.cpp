@@ -1,0 +1,199 @@
+#include "measure/steadiness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace chute::measure {
+namespace {
+
+constexpr std::size_t blocks = 64, stretches = 12;
+constexpr std::array<std::string_view, 5> names{"stopped", "steady", "accelerating", "runaway", "unsettled"};
+
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The record of a run, to be asked about any part of it.
+class Record {
+ public:
+  explicit Record(const FlowSeries& series) : s_(series) {}
+  std::size_t rows() const { return s_.time.size(); }
+  std::size_t last() const { return rows() - 1; }
+  /// The row at a part of the time from `first` to the end.
+  std::size_t row(std::size_t first, std::size_t k, std::size_t of) const {
+    return first + (last() - first) * k / of;
+  }
+  double velocity(std::size_t from, std::size_t to) const {
+    return (s_.x[to] - s_.x[from]) / (s_.time[to] - s_.time[from]);
+  }
+
+  /// Velocities of equal parts of the time from row `first` to the end.
+  std::vector<double> velocities(std::size_t first, std::size_t count) const {
+    std::vector<double> v(count);
+    for (std::size_t k = 0; k < count; ++k) v[k] = velocity(row(first, k, count), row(first, k + 1, count));
+    return v;
+  }
+  /// Means of another column over the same parts.
+  std::vector<double> means(std::span<const double> column, std::size_t first, std::size_t count) const {
+    std::vector<double> m(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto from = row(first, k, count), to = row(first, k + 1, count);
+      m[k] = mean(column.subspan(from + 1, to - from));
+    }
+    return m;
+  }
+
+ private:
+  const FlowSeries& s_;
+};
+
+/// MSER: the number of leading values without which the mean of the others has the least squared standard
+/// error. Of nearly equal choices the one that keeps most, for correlated noise would often cut away good
+/// data.
+std::size_t transient(std::span<const double> values) {
+  constexpr std::size_t fewest = 8;  // fewer can agree by chance
+  constexpr double nearly = 1.3;
+  std::vector<double> statistic(values.size(), INFINITY);
+  double sum = 0, squares = 0;
+  const double shift = values.back();  // keeps the sums of squares free of cancellation
+  for (std::size_t first = values.size(); first-- > 0;) {
+    sum += values[first] - shift;
+    squares += (values[first] - shift) * (values[first] - shift);
+    const auto n = static_cast<double>(values.size() - first);
+    if (values.size() - first >= fewest) statistic[first] = std::max(0.0, squares - sum * sum / n) / (n * n);
+  }
+  const double least = *std::min_element(statistic.begin(), statistic.end());
+  const auto found =
+      std::find_if(statistic.begin(), statistic.end(), [&](double s) { return s <= nearly * least; });
+  return static_cast<std::size_t>(found - statistic.begin());
+}
+
+/// Straight line through equally spaced values, and how far they scatter about it.
+struct Trend {
+  double middle, change, change_error, scatter;
+  explicit Trend(std::span<const double> values) : middle(mean(values)) {
+    const auto n = static_cast<double>(values.size());
+    const double centre = (n - 1) / 2;
+    double moment = 0, spread = 0, square = 0, next = 0, all = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double t = static_cast<double>(k) - centre;
+      moment += t * (values[k] - middle);
+      spread += t * t;
+    }
+    const double slope = moment / spread;
+    std::vector<double> off(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      off[k] = values[k] - middle - slope * (static_cast<double>(k) - centre);
+      square += off[k] * off[k];
+      all += (values[k] - middle) * (values[k] - middle);
+      if (k > 0) next += off[k] * off[k - 1];
+    }
+    change = n * slope;
+    change_error = n * std::sqrt(square / (n - 2) / spread) * inflation(square > 0 ? next / square : 0);
+    scatter = std::sqrt(all / (n - 1));
+  }
+  /// What correlation r of neighbours does to the standard error of a mean (AR(1)).
+  static double inflation(double r) {
+    const double kept = std::clamp(r, 0.0, 0.8);
+    return std::sqrt((1 + kept) / (1 - kept));
+  }
+};
+
+Estimate estimate(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  const double middle = mean(values);
+  double square = 0, next = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    square += (values[k] - middle) * (values[k] - middle);
+    if (k > 0) next += (values[k] - middle) * (values[k - 1] - middle);
+  }
+  const double r = square > 0 ? next / square : 0;
+  return {middle, std::sqrt(square / (n - 1) / n) * Trend::inflation(r)};
+}
+
+/// First row of the rest at the end, if there is one.
+std::optional<std::size_t> rest(const FlowSeries& s, const FlowScales& scales) {
+  const double still = 1e-3 * scales.gravity * scales.length, near = 0.5 * scales.length;
+  std::size_t first = s.time.size();
+  while (first > 0 && s.kinetic[first - 1] <= still && std::abs(s.x[first - 1] - s.x.back()) <= near) --first;
+  const double needed = scales.gravity > 0 ? 10 * std::sqrt(scales.length / scales.gravity) : 0;
+  if (first + 3 > s.time.size() || s.time.back() - s.time[first] < needed) return {};
+  return first;
+}
+
+bool is_steady(const Record& record, std::size_t first) {
+  const auto v = record.velocities(first, stretches);
+  const Trend trend(v);
+  const double speed = std::abs(trend.middle);
+  const double last = record.velocity(record.row(0, 7, 8), record.last());
+  return trend.change_error <= 0.15 * speed &&
+         std::abs(trend.change) <= std::max(0.1 * speed, 3 * trend.change_error) &&
+         std::abs(last - trend.middle) <= std::max(0.15 * speed, 4 * trend.scatter);
+}
+
+bool runs_away(std::span<const double> v) {
+  constexpr std::size_t length = 3 * blocks / 8, third = length / 3, eighth = blocks / 8;
+  const double end = mean(v.last(eighth)), before = mean(v.subspan(blocks - 2 * eighth, eighth));
+  if (end < before) return false;
+  for (std::size_t first = 0; first + length + eighth <= blocks; ++first) {
+    const auto plateau = v.subspan(first, length);
+    const std::array parts{mean(plateau.first(third)), mean(plateau.subspan(third, third)),
+                           mean(plateau.last(third))};
+    const auto [low, high] = std::minmax_element(parts.begin(), parts.end());
+    if (*low > 0 && *high <= 1.15 * *low && end >= 1.3 * *high &&
+        end > *std::max_element(plateau.begin(), plateau.end()))
+      return true;
+  }
+  return false;
+}
+
+bool accelerates(std::span<const double> v) {
+  constexpr std::size_t quarter = blocks / 4;
+  const double a = mean(v.subspan(quarter, quarter)), b = mean(v.subspan(2 * quarter, quarter)),
+               c = mean(v.last(quarter));
+  return c >= 1.2 * std::abs(a) && b > a && c - b >= 0.8 * (b - a);
+}
+
+}  // namespace
+
+std::string_view name(Verdict verdict) { return names[static_cast<std::size_t>(verdict)]; }
+
+std::optional<Verdict> verdict_named(std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return static_cast<Verdict>(found - names.begin());
+}
+
+Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
+  const Record record(series);
+  const auto unknown = [](double value) { return Estimate{value, {}}; };
+  if (record.rows() < 2) return {Verdict::unsettled, NAN, unknown(NAN), unknown(NAN), unknown(NAN)};
+  const auto plain = [&](Verdict verdict, std::size_t first) {
+    const auto part = [&](std::span<const double> column) {
+      return unknown(mean(column.subspan(first + 1)));
+    };
+    return Flow{verdict, series.time[first], unknown(record.velocity(first, record.last())),
+                part(series.omega), part(series.kinetic)};
+  };
+  if (const auto first = rest(series, scales)) return plain(Verdict::stopped, *first);
+  const auto late = record.row(0, 3, 4);
+  if (record.rows() <= blocks) return plain(Verdict::unsettled, late);
+
+  const auto v = record.velocities(0, blocks);
+  const auto forgotten = transient(v);
+  if (static_cast<double>(forgotten) <= 0.6 * blocks) {
+    const auto first = record.row(0, forgotten, blocks);
+    const double way = std::abs(series.x.back() - series.x[first]);
+    if (way >= 20 * scales.length && is_steady(record, first))
+      return {Verdict::steady, series.time[first], estimate(record.velocities(first, stretches)),
+              estimate(record.means(series.omega, first, stretches)),
+              estimate(record.means(series.kinetic, first, stretches))};
+  }
+  if (runs_away(v)) return plain(Verdict::runaway, late);
+  return plain(accelerates(v) ? Verdict::accelerating : Verdict::unsettled, late);
+}
+
+}  // namespace chute::measure

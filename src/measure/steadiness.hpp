@@ -1,0 +1,72 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "measure/estimate.hpp"
+
+namespace chute::measure {
+
+/// What became of a flow, or of a single ball, by the end of a run.
+enum class Verdict {
+  stopped,       ///< it rests
+  steady,        ///< it forgot its start, and its mean velocity no longer changes
+  accelerating,  ///< its velocity grows without a sign of a limit (region C of thesis 4.1)
+  runaway,       ///< it kept a velocity for a while, then left it for good (thesis fig. 5.6)
+  unsettled      ///< none of these: the run is too short to say
+};
+/// Name of a verdict, as run.json has it.
+std::string_view name(Verdict verdict);
+/// The verdict of that name, or nothing.
+std::optional<Verdict> verdict_named(std::string_view name);
+
+/// Time series of a run, equally long, equally spaced in time.
+struct FlowSeries {
+  std::span<const double> time;
+  std::span<const double> x;        ///< mean place along the incline, counted on through the periods
+  std::span<const double> omega;    ///< mean spin
+  std::span<const double> kinetic;  ///< kinetic energy of translation and rotation, per mass
+};
+
+/// What is long and fast for the grains.
+struct FlowScales {
+  double length;   ///< way from bead to bead of the bed
+  double gravity;  ///< g
+};
+
+/// The verdict with the means that it allows. Where nothing settled there are no errors, and the means are
+/// those of the last quarter of the run.
+struct Flow {
+  Verdict verdict;
+  double from;   ///< the means count from this time to the end
+  Estimate v_x;  ///< way over time, which is exact
+  Estimate omega, kinetic;
+};
+
+/// Tells what became of a flow. The record is cut into 64 blocks of time; the velocity of a block is the way
+/// made over the time. In this order:
+///
+/// - `stopped`: during the last 10 √(length/g) the kinetic energy per mass stays under 10⁻³ g·length and the
+/// mean
+///   place within half a length. Counts from when that became so.
+/// - `steady`: the transient that MSER removes (what is left has nearly the least squared standard error of
+/// the mean velocity) ends
+///   before 0.6 of the run; since then at least 20 lengths were made; the linear trend over twelve stretches
+///   of that time changes the velocity by less than a tenth, or by less than three of its standard errors,
+///   which must not exceed 0.15 of the velocity; and the last eighth of the run lies within 15 % of the mean,
+///   or within four standard deviations of the stretches.
+/// - `runaway`: three eighths of the run in a row were a plateau (means of the eighths within 15 %), the last
+/// eighth is
+///   at least 1.3 times as fast and faster than all blocks of the plateau, and not slower than the eighth
+///   before.
+/// - `accelerating`: over the last three quarters of the run the velocity grows by a fifth or more, and the
+/// growth from
+///   the second of these quarters to the third is at least 0.8 of that from the first to the second. An
+///   approach to some velocity within a time shorter than the run slows down more than that.
+/// - `unsettled`: everything else, and less than 64 rows.
+///
+/// Errors are standard errors over twelve stretches, enlarged by √((1+r)/(1−r)) where neighbouring stretches
+/// are correlated, r > 0.
+Flow judge_flow(const FlowSeries& series, const FlowScales& scales);
+
+}  // namespace chute::measure

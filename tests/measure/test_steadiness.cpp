@@ -1,0 +1,177 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "core/random.hpp"
+#include "measure/steadiness.hpp"
+
+using namespace chute;
+using measure::Verdict;
+
+namespace {
+
+/// A record made of a known velocity v(t) with noise of a given spread and correlation time (AR(1)). Lengths
+/// and times are those of discs: length 1, gravity 1, mean velocities about 2.
+struct Made {
+  std::vector<double> time, x, omega, kinetic;
+  measure::Flow judged() const { return measure::judge_flow({time, x, omega, kinetic}, {1, 1}); }
+};
+
+struct Noise {
+  double spread = 0, correlation = 1;
+  std::uint64_t seed = 1;
+};
+
+Made made(const std::function<double(double)>& velocity, Noise noise = {}, double duration = 400,
+          std::size_t rows = 401) {
+  Random random(noise.seed, Purpose::stochastic);
+  constexpr int fine = 10;  // steps of the integration from row to row
+  const double dt = duration / static_cast<double>(rows - 1) / fine;
+  const double keep = std::exp(-dt / noise.correlation);
+  Made m;
+  double x = 0, off = noise.spread * random.normal(), t = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double v = velocity(t) + off;
+    m.time.push_back(t), m.x.push_back(x), m.omega.push_back(v / 2), m.kinetic.push_back(v * v / 2);
+    for (int k = 0; k < fine; ++k) {
+      x += dt * (velocity(t + dt / 2) + off);
+      t += dt;
+      off = keep * off + noise.spread * std::sqrt(1 - keep * keep) * random.normal();
+    }
+  }
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("correlated noise about one velocity is steady, and its error is honest") {
+  const double truth = 2;
+  for (const double correlation : {0.5, 3.0, 10.0}) {
+    int covered = 0, steady = 0;
+    double squares = 0, claimed = 0;
+    const int runs = 200;
+    for (int k = 0; k < runs; ++k) {
+      const auto flow =
+          made([&](double) { return truth; }, {0.3, correlation, static_cast<std::uint64_t>(k)}).judged();
+      if (flow.verdict != Verdict::steady) continue;
+      ++steady;
+      REQUIRE(flow.v_x.error);
+      squares += (flow.v_x.mean - truth) * (flow.v_x.mean - truth);
+      claimed += *flow.v_x.error * *flow.v_x.error;
+      covered += std::abs(flow.v_x.mean - truth) <= 2 * *flow.v_x.error;
+    }
+    INFO("correlation time " << correlation << ": " << steady << " steady, " << covered
+                             << " within two errors, claimed over real error "
+                             << std::sqrt(claimed / squares));
+    CHECK(steady >= 0.85 * runs);  // forty correlation times are not always enough to tell
+    CHECK(covered >= 0.85 * steady);  // 0.95 with the normal distribution; twelve stretches are few
+    CHECK(std::sqrt(claimed / squares) > 0.8);
+    CHECK(std::sqrt(claimed / squares) < 1.7);
+  }
+}
+
+TEST_CASE("the start is left out of the means") {
+  const double truth = 1.5;
+  for (const double start : {4.0, 0.0})
+    for (const double tau : {2.0, 10.0, 25.0}) {
+      const auto flow =
+          made([&](double t) { return truth + (start - truth) * std::exp(-t / tau); }, {0.05, 2, 7}).judged();
+      INFO("start " << start << ", tau " << tau << ": from " << flow.from << ", v_x " << flow.v_x.mean
+                    << " ± " << flow.v_x.error.value_or(0));
+      CHECK(flow.verdict == Verdict::steady);
+      CHECK(flow.from > tau);
+      CHECK(flow.from < 240);
+      CHECK(flow.v_x.mean == Approx(truth).margin(0.02));
+      CHECK(flow.omega.mean == Approx(truth / 2).margin(0.02));
+    }
+}
+
+TEST_CASE("a bouncing ball's saw-tooth is steady, and the way gives its velocity exactly") {
+  // One ball on beads 1 apart: between impacts v grows, at each it drops. The period is no multiple of the
+  // rows.
+  const double period = 0.737, mean = 1.35;
+  const auto flow =
+      made([&](double t) { return mean + 0.4 * (t / period - std::floor(t / period) - 0.5); }, {}, 200, 2001)
+          .judged();
+  CHECK(flow.verdict == Verdict::steady);
+  REQUIRE(flow.v_x.error);
+  CHECK(flow.v_x.mean == Approx(mean).epsilon(1e-3));
+  CHECK(*flow.v_x.error < 2e-3);
+}
+
+TEST_CASE("a flow that comes to rest has stopped, whenever it did") {
+  for (const double stop : {15.0, 200.0, 380.0}) {
+    const auto flow = made([&](double t) { return t < stop ? 1.2 : 1e-3; }, {}).judged();
+    INFO("stops at " << stop);
+    CHECK(flow.verdict == Verdict::stopped);
+    CHECK(flow.from == Approx(stop).margin(2));
+    CHECK_FALSE(flow.v_x.error);
+    CHECK(flow.v_x.mean == Approx(1e-3).margin(1e-2));
+  }
+  // 5 time units of rest may be a pause
+  CHECK(made([&](double t) { return t < 395 ? 1.2 : 0.0; }).judged().verdict != Verdict::stopped);
+  // slow is not stopped
+  CHECK(made([&](double) { return 0.2; }, {0.02, 2}).judged().verdict == Verdict::steady);
+}
+
+TEST_CASE("growth without a limit is accelerating") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CHECK(made([&](double t) { return 1 + 0.05 * t; }, {0.3, 3, seed}).judged().verdict ==
+          Verdict::accelerating);
+    CHECK(made([&](double t) { return 0.5 + std::pow(t / 40, 1.5); }, {0.3, 3, seed}).judged().verdict ==
+          Verdict::accelerating);
+    // down from the start's velocity first
+    CHECK(made([&](double t) { return 3 * std::exp(-t / 10) + 0.02 * t; }, {0.1, 3, seed}).judged().verdict ==
+          Verdict::accelerating);
+  }
+}
+
+TEST_CASE("a plateau that is left for good is a runaway") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (const double leaves : {200.0, 280.0}) {
+      const auto flow =
+          made([&](double t) { return t < leaves ? 2 : 2 + 0.03 * (t - leaves); }, {0.15, 3, seed}).judged();
+      INFO("leaves at " << leaves << ", seed " << seed);
+      CHECK(flow.verdict == Verdict::runaway);
+      CHECK_FALSE(flow.v_x.error);
+    }
+}
+
+TEST_CASE("what is still on its way is unsettled") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    // approaches in a time half as long as the run: nearly there, but not yet
+    CHECK(made([&](double t) { return 3 - 2.5 * std::exp(-t / 180); }, {0.05, 3, seed}).judged().verdict ==
+          Verdict::unsettled);
+    // a slow decline
+    CHECK(made([&](double t) { return 3 - 0.005 * t; }, {0.05, 3, seed}).judged().verdict ==
+          Verdict::unsettled);
+  }
+  // too short, in rows and in way
+  CHECK(made([](double) { return 2.0; }, {}, 400, 40).judged().verdict == Verdict::unsettled);
+  CHECK(made([](double) { return 2.0; }, {0.1, 1}, 8).judged().verdict == Verdict::unsettled);
+  CHECK(measure::judge_flow({}, {1, 1}).verdict == Verdict::unsettled);
+}
+
+TEST_CASE("the units do not matter") {
+  const auto reduced = made([](double t) { return 2 + std::exp(-t / 5); }, {0.1, 2, 3});
+  auto si = reduced;
+  const double d = 0.01, g = 9.81;
+  for (auto& t : si.time) t *= std::sqrt(d / g);
+  for (auto& x : si.x) x *= d;
+  for (auto& w : si.omega) w *= std::sqrt(g / d);
+  for (auto& e : si.kinetic) e *= g * d;
+  const auto a = reduced.judged(), b = measure::judge_flow({si.time, si.x, si.omega, si.kinetic}, {d, g});
+  CHECK(a.verdict == Verdict::steady);
+  CHECK(b.verdict == a.verdict);
+  CHECK(b.from == Approx(a.from * std::sqrt(d / g)));
+  CHECK(b.v_x.mean == Approx(a.v_x.mean * std::sqrt(g * d)));
+  CHECK(*b.v_x.error == Approx(*a.v_x.error * std::sqrt(g * d)));
+}
+
+TEST_CASE("verdicts have names") {
+  for (const auto verdict :
+       {Verdict::stopped, Verdict::steady, Verdict::accelerating, Verdict::runaway, Verdict::unsettled})
+    CHECK(measure::verdict_named(measure::name(verdict)) == verdict);
+  CHECK_FALSE(measure::verdict_named("steadily"));
+}
