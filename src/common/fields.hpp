@@ -32,11 +32,16 @@ inline constexpr Field gamma{"gamma", "\\gamma", "rad", "rad",
 inline constexpr Field phi{"phi", "\\varphi", "rad", "rad", true};    ///< azimuth about the normal; 0 in 2D
 inline constexpr Field v_n{"v_n", "v_n", "m/s", "\\sqrt{gd}", true};  ///< < 0 on approach (1.13)
 inline constexpr Field v_t{"v_t", "v_t", "m/s", "\\sqrt{gd}", true};  ///< translation along the surface, v·s
+inline constexpr Field flight{"flight", "\\tau", "s", "\\sqrt{d/g}", false};  ///< time of flight before it
+inline constexpr Field gamma_before{"gamma_before", "\\gamma'", "rad", "rad",
+                                    true};                            ///< of the same grain's impact before
+inline constexpr Field rolling{"rolling", "rolling", "", "", false};  ///< 1: rolling contact made up again
 inline constexpr Field bead{"bead", "bead", "", "", false};           ///< id of the grain that was hit
 inline constexpr Field grain{"grain", "grain", "", "", false};        ///< id of the grain that hit
 
 inline constexpr std::array grain_fields{id, type, radius, mass, velocity, angular_velocity, angle, force};
-inline constexpr std::array impact_fields{time, gamma, phi, v_n, v_t, bead, grain};
+inline constexpr std::array impact_fields{time,   gamma,        phi,     v_n,  v_t,
+                                          flight, gamma_before, rolling, bead, grain};
 
 // Field data of every VTK file
 inline constexpr std::string_view time_value = "TimeValue";  ///< ParaView's own name

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/grains.hpp"
+#include "core/impact.hpp"
 
 namespace chute {
 
@@ -20,18 +21,22 @@ struct EnergyAccount {
 
   double stored() const { return translation + rotation + elastic; }
   double residual() const { return gravity_work - (stored() - start) - normal_loss - shear_loss; }
-};
 
-/// The begin of a contact, as it was just before any force acted. `bead` is the grain that was hit: the fixed
-/// one, or of two moving grains the one with the lower id.
-struct Impact {
-  double time;
-  std::int64_t grain, bead;
-  std::array<double, 3> place;  ///< where the surfaces met
-  double gamma;  ///< angle between the incline's normal and the line from bead to grain; > 0 downhill
-  double phi;    ///< azimuth of that line about the incline's normal; 0 or ±π side in 3D, 0 in 2D
-  double v_n;    ///< relative normal velocity (1.13), < 0 on approach
-  double v_t;    ///< relative translational velocity along the surface, downhill positive in 2D
+  /// Adds what places and velocities tell: the energies of motion, and gravity's work since the moving grains
+  /// were at `start_place` (counted on through the periods).
+  template <int D>
+  void add_motion(const GrainsView& now, const Vec<D>& gravity, std::span<const Array> start_place) {
+    for (std::size_t i = 0; i < now.moving; ++i) {
+      for (int k = 0; k < D; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        const double v = now.velocity[axis][i];
+        translation += 0.5 * now.mass[i] * v * v;
+        gravity_work += now.mass[i] * gravity[k] * (now.unwrapped(i, axis) - start_place[axis][i]);
+      }
+      for (std::size_t k = 0; k < turns<D>; ++k)
+        rotation += 0.5 * now.inertia[i] * now.spin[k][i] * now.spin[k][i];
+    }
+  }
 };
 
 /// A contact at one instant.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/domain.hpp"
 #include "core/vec.hpp"
 
 namespace chute {
@@ -98,5 +99,28 @@ struct GrainsView {
     return position[k][i] + static_cast<double>(wraps[k][i]) * period[k];
   }
 };
+
+/// The view of these grains at `time`, under these forces; it points into both.
+template <int D>
+GrainsView view_of(const Grains<D>& grains, std::span<const Array> force, const Domain<D>& domain,
+                   double time) {
+  GrainsView view;
+  view.dimensions = D;
+  view.time = time;
+  view.moving = grains.moving;
+  for (int k = 0; k < D; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    view.position[axis] = grains.position[axis];
+    view.velocity[axis] = grains.velocity[axis];
+    view.force[axis] = force[axis];
+    view.wraps[axis] = grains.wraps[axis];
+    view.period[axis] = domain.periodic(k) ? domain.length[k] : 0;
+  }
+  for (std::size_t k = 0; k < turns<D>; ++k) view.angle[k] = grains.angle[k], view.spin[k] = grains.spin[k];
+  view.radius = grains.radius;
+  view.mass = grains.mass;
+  view.inertia = grains.inertia;
+  return view;
+}
 
 }  // namespace chute

@@ -10,7 +10,6 @@
 
 #include "common/error.hpp"
 #include "event/first_contact.hpp"
-#include "event/impact_record.hpp"
 
 namespace chute::event {
 namespace {
@@ -37,7 +36,10 @@ constexpr double least_rebound = 0.25;
 
 template <int D>
 EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
-    : setup_(setup), grains_(std::move(grains)), meetings_(grains_.moving, setup.contact_time) {
+    : setup_(setup),
+      grains_(std::move(grains)),
+      meetings_(grains_.moving, setup.contact_time),
+      touches_(grains_.moving, setup.contact_time) {
   const std::size_t n = grains_.size(), moving = grains_.moving;
   flights_.resize(n);
   double widest_moving = 0, widest_fixed = 0;
@@ -222,9 +224,7 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   const Vec<D> n = (1 / distance) * way;
 
   const Meeting* train = meetings_.running(i, j, now_);
-  if (collecting_ && !train)  // of two moving grains the one with the lower id counts as the bead
-    impacts_.push_back(both ? impact_record(now_, j, flights_[j], i, flights_[i], n)
-                            : impact_record(now_, i, flights_[i], j, flights_[j], -1.0 * n));
+  note_touch(i, j, n, train);
   laws::Collider<D> a = collider(i), b = collider(j);
   const auto done = exchange(n, train, a, b);
   const double normal = dot(done.impulse, n);
@@ -238,6 +238,22 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   if (both) check_collapse(j);
   look(i, nullptr, j);
   if (both) look(j, nullptr, i);
+}
+
+/// An impact, or the rolling contact goes on; n from i to j.
+template <int D>
+void EventEngine<D>::note_touch(std::size_t i, std::size_t j, const Vec<D>& n, const Meeting* train) {
+  if (train) return touches_.hold(now_, i, j);
+  const bool both = j < grains_.moving;  // then the one with the lower id counts as the bead
+  const auto grain = both ? j : i, bead = both ? i : j;
+  const Vec<D> out = both ? n : -1.0 * n;
+  const Flight<D>&hitting = flights_[grain], &hit = flights_[bead];
+  Impact impact = impact_at(now_, out, hitting.velocity - hit.velocity, hit.place + hit.radius * out);
+  impact.grain = static_cast<std::int64_t>(grain);
+  impact.bead = static_cast<std::int64_t>(bead);
+  touches_.begin(impact);
+  touches_.end(now_, i, j);
+  if (collecting_) impacts_.push_back(impact);
 }
 
 template <int D>
@@ -298,39 +314,13 @@ void EventEngine<D>::show() {
 
 template <int D>
 GrainsView EventEngine<D>::grains() const {
-  GrainsView view;
-  view.dimensions = D;
-  view.time = time();
-  view.moving = grains_.moving;
-  for (std::size_t k = 0; k < D; ++k) {
-    view.position[k] = grains_.position[k];
-    view.velocity[k] = grains_.velocity[k];
-    view.force[k] = force_[k];
-    view.wraps[k] = grains_.wraps[k];
-    const auto axis = static_cast<int>(k);
-    view.period[k] = setup_.domain.periodic(axis) ? setup_.domain.length[axis] : 0;
-  }
-  for (std::size_t k = 0; k < turns<D>; ++k) view.angle[k] = grains_.angle[k], view.spin[k] = grains_.spin[k];
-  view.radius = grains_.radius;
-  view.mass = grains_.mass;
-  view.inertia = grains_.inertia;
-  return view;
+  return view_of(grains_, force_, setup_.domain, time());
 }
 
 template <int D>
 EnergyAccount EventEngine<D>::energy() const {
   EnergyAccount e = account_;
-  const GrainsView view = grains();
-  for (std::size_t i = 0; i < grains_.moving; ++i) {
-    for (std::size_t k = 0; k < D; ++k) {
-      const double v = grains_.velocity[k][i];
-      e.translation += 0.5 * grains_.mass[i] * v * v;
-      e.gravity_work +=
-          grains_.mass[i] * setup_.gravity[static_cast<int>(k)] * (view.unwrapped(i, k) - start_place_[k][i]);
-    }
-    for (std::size_t k = 0; k < turns<D>; ++k)
-      e.rotation += 0.5 * grains_.inertia[i] * grains_.spin[k][i] * grains_.spin[k][i];
-  }
+  e.add_motion(grains(), setup_.gravity, start_place_);
   return e;
 }
 
@@ -359,7 +349,7 @@ void EventEngine<D>::transfer(Archive& archive, Self& self) {
     archive(f.place.c, f.velocity.c, f.spin.c, f.angle.c, f.wraps, f.time);
     archive(self.bursts_[i].begin, self.bursts_[i].collisions);
   }
-  archive(self.start_place_, self.meetings_, self.account_.start, self.account_.normal_loss,
+  archive(self.start_place_, self.meetings_, self.touches_, self.account_.start, self.account_.normal_loss,
           self.account_.shear_loss, self.now_, self.step_);
 }
 

@@ -96,6 +96,7 @@ class EventEngine final : public Engine {
   Cells<D> cells_;
   Schedule schedule_;
   Meetings meetings_;
+  TouchLog touches_;
   struct Burst {
     double begin = 0;
     std::int64_t collisions = 0;
@@ -120,6 +121,7 @@ class EventEngine final : public Engine {
   void plan(std::size_t i);
   void lay_out();
   void collide(std::size_t i, std::size_t j);
+  void note_touch(std::size_t i, std::size_t j, const Vec<D>& n, const Meeting* train);
   void check_collapse(std::size_t i);
   void show();
   laws::Collider<D> collider(std::size_t i) const;

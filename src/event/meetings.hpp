@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/impact.hpp"
+
 namespace chute::event {
 
 /// The contact of two grains as hard spheres know it: a train of collisions that follow each other closely.
@@ -21,18 +23,17 @@ struct Meeting {
 };
 
 /// Who met whom lately: what is needed to tell a lasting contact from a bounce. A collision continues a train
-/// if it comes less than 4 t_c after the one before; those that come within t_c are elastic. The two differ
-/// because the bounces of a train grow where the force that presses the grains together fades, and then lose
-/// energy again: a ball that rolls over a bead must not seem to hit it anew each time.
+/// if it comes less than 4 t_c (`rolling_ends`) after the one before; those that come within t_c are elastic.
+/// The two differ because the bounces of a train grow where the force that presses the grains together fades,
+/// and then lose energy again: a ball that rolls over a bead must not seem to hit it anew each time.
 class Meetings {
  public:
-  static constexpr double train_ends = 4;  ///< in units of t_c
   Meetings() = default;
   Meetings(std::size_t grains, double contact_time) : of_(grains), contact_time_(contact_time) {}
 
   double contact_time() const { return contact_time_; }
 
-  bool runs(const Meeting& m, double t) const { return t - m.last < train_ends * contact_time_; }
+  bool runs(const Meeting& m, double t) const { return t - m.last < rolling_ends * contact_time_; }
 
   /// The train that a collision of i < j at time t continues; nothing if it begins one.
   const Meeting* running(std::size_t i, std::size_t j, double t) const {

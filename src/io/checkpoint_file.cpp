@@ -14,7 +14,7 @@
 namespace chute::io {
 namespace {
 
-constexpr std::string_view magic = "chute checkpoint 2\n";
+constexpr std::string_view magic = "chute checkpoint 3\n";
 constexpr std::size_t trailer = 8;  // the sum, in hexadecimal
 
 std::uint32_t add_to_sum(std::uint32_t sum, std::string_view bytes) {

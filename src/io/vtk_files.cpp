@@ -134,6 +134,10 @@ std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts) 
   number(fields::phi, &Impact::phi);
   number(fields::v_n, &Impact::v_n);
   number(fields::v_t, &Impact::v_t);
+  number(fields::flight, &Impact::flight);
+  number(fields::gamma_before, &Impact::gamma_before);
+  add_array<vtkIntArray>(to, fields::rolling.name, n, 1,
+                         [&](std::size_t i, int) { return impacts[i].rolling ? 1 : 0; });
   add_array<vtkLongLongArray>(to, fields::bead.name, n, 1,
                               [&](std::size_t i, int) { return impacts[i].bead; });
   add_array<vtkLongLongArray>(to, fields::grain.name, n, 1,

@@ -98,6 +98,7 @@ Made make_engine(const scene::Scene& scene) {
   setup.skins = soft::usual_skins<2>(scene.mean_diameter());
   setup.deepest_overlap = scene.engine.deepest_overlap;
   setup.floor = floor;
+  setup.contact_time = reference_impact(scene).contact_time;
   return {std::make_unique<soft::SoftEngine<2>>(std::move(start.grains), setup), start.domain};
 }
 

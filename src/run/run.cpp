@@ -24,14 +24,7 @@
 #include "run/schedule.hpp"
 #include "run/version.hpp"
 
-namespace chute {
-
-template <class Archive>
-void serialize(Archive& a, Impact& i) {
-  a(i.time, i.grain, i.bead, i.place, i.gamma, i.phi, i.v_n, i.v_t);
-}
-
-namespace run {
+namespace chute::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -294,5 +287,4 @@ bool is_finished_run_of(const std::filesystem::path& directory, const scene::Sce
   }
 }
 
-}  // namespace run
-}  // namespace chute
+}  // namespace chute::run

@@ -84,12 +84,21 @@ void SoftEngine<D>::account(double duration) {
 
 template <int D>
 void SoftEngine<D>::find_impacts() {
-  // Both lists are ordered by (i, j): a merge finds the contacts that were not there a step ago.
+  // Both lists are ordered by (i, j): a merge finds the contacts that were not there a step ago, and those
+  // that are there no more. Ends come first: a contact that begins finds the others as they are now.
+  auto now = std::size_t{0};
+  for (const auto& [i, j] : touched_) {
+    while (now < contacts_.count && std::pair(contacts_.i[now], contacts_.j[now]) < std::pair(i, j)) ++now;
+    if (now == contacts_.count || std::pair(contacts_.i[now], contacts_.j[now]) != std::pair(i, j))
+      touches_.end(time(), static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  }
   auto old = touched_.begin();
   for (std::size_t c = 0; c < contacts_.count; ++c) {
-    const std::pair now{contacts_.i[c], contacts_.j[c]};
-    while (old != touched_.end() && *old < now) ++old;
-    if (old == touched_.end() || *old != now) impacts_.push_back(impact(c));
+    const std::pair pair{contacts_.i[c], contacts_.j[c]};
+    while (old != touched_.end() && *old < pair) ++old;
+    if (old != touched_.end() && *old == pair) continue;
+    impacts_.push_back(impact(c));
+    touches_.begin(impacts_.back());
   }
   remember_touching();
 }
@@ -100,35 +109,27 @@ template <int D>
 Impact SoftEngine<D>::impact(std::size_t contact) const {
   auto grain = static_cast<std::size_t>(contacts_.i[contact]);
   auto bead = static_cast<std::size_t>(contacts_.j[contact]);
-  Vec<D> n, place;  // n from bead to grain
+  Vec<D> n;  // from bead to grain
   for (int k = 0; k < D; ++k) n[k] = -contacts_.normal[k][contact];
   if (bead < grains_.moving) {  // of two moving grains the first counts as the bead
     std::swap(grain, bead);
     n = -1.0 * n;
   }
-  place = grains_.place(bead) + grains_.radius[bead] * n;
-  const auto v = grains_.speed(grain) - grains_.speed(bead);
-  const double v_n = dot(v, n);
-  Impact impact{};
-  impact.time = time();
+  Impact impact = impact_at(time(), n, grains_.speed(grain) - grains_.speed(bead),
+                            grains_.place(bead) + grains_.radius[bead] * n);
   impact.grain = static_cast<std::int64_t>(grain);
   impact.bead = static_cast<std::int64_t>(bead);
-  for (int k = 0; k < D; ++k) impact.place[k] = place[k];
-  impact.v_n = v_n;
-  if constexpr (D == 2) {
-    impact.gamma = std::atan2(n[0], n[1]);
-    impact.v_t = v[0] * n[1] - v[1] * n[0];  // along s = (n_y, −n_x): downhill at the top of a bead
-  } else {
-    impact.gamma = std::acos(std::clamp(n[2], -1.0, 1.0));
-    impact.phi = std::atan2(n[1], n[0]);
-    impact.v_t = norm(v - v_n * n);
-  }
   return impact;
 }
 
 template <int D>
 void SoftEngine<D>::collect_impacts(bool on) {
-  if (on && !collecting_) remember_touching();  // what touches already is no impact
+  if (on && !collecting_) {  // what touches already is no impact
+    remember_touching();
+    touches_ = TouchLog(grains_.moving, setup_.contact_time);
+    for (const auto& [i, j] : touched_)
+      touches_.touch(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  }
   collecting_ = on;
 }
 
@@ -158,37 +159,13 @@ void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) co
 
 template <int D>
 GrainsView SoftEngine<D>::grains() const {
-  GrainsView view;
-  view.dimensions = D;
-  view.time = time();
-  view.moving = grains_.moving;
-  for (int k = 0; k < D; ++k) {
-    view.position[k] = grains_.position[k];
-    view.velocity[k] = grains_.velocity[k];
-    view.force[k] = force_[k];
-    view.wraps[k] = grains_.wraps[k];
-    view.period[k] = setup_.domain.periodic(k) ? setup_.domain.length[k] : 0;
-  }
-  for (int k = 0; k < turns<D>; ++k) view.angle[k] = grains_.angle[k], view.spin[k] = grains_.spin[k];
-  view.radius = grains_.radius;
-  view.mass = grains_.mass;
-  view.inertia = grains_.inertia;
-  return view;
+  return view_of(grains_, force_, setup_.domain, time());
 }
 
 template <int D>
 EnergyAccount SoftEngine<D>::energy() const {
   EnergyAccount e = account_;
-  const GrainsView view = grains();
-  for (std::size_t i = 0; i < grains_.moving; ++i) {
-    for (int k = 0; k < D; ++k) {
-      const double v = grains_.velocity[k][i];
-      e.translation += 0.5 * grains_.mass[i] * v * v;
-      e.gravity_work += grains_.mass[i] * setup_.gravity[k] * (view.unwrapped(i, k) - start_place_[k][i]);
-    }
-    for (int k = 0; k < turns<D>; ++k)
-      e.rotation += 0.5 * grains_.inertia[i] * grains_.spin[k][i] * grains_.spin[k][i];
-  }
+  e.add_motion(grains(), setup_.gravity, start_place_);
   e.elastic = stages_.elastic_energy(contacts_);
   return e;
 }
@@ -212,7 +189,7 @@ void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   auto& g = self.grains_;
   archive(g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
           self.account_.start, self.account_.normal_loss, self.account_.shear_loss, self.step_,
-          self.collecting_, self.touched_, self.stages_.memory());
+          self.collecting_, self.touched_, self.touches_, self.stages_.memory());
 }
 
 template <int D>

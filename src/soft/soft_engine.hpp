@@ -19,6 +19,7 @@ struct SoftSetup {
   typename search::NeighbourList<D>::Skins skins{};
   double deepest_overlap = 0.25;  ///< of the smallest radius; beyond it the run has left physics
   double floor = -std::numeric_limits<double>::infinity();  ///< a grain below (last coordinate) is lost
+  double contact_time = 0;  ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
   search::Method search = search::Method::cells;
   Isa isa = best_isa();
 };
@@ -59,6 +60,7 @@ class SoftEngine final : public Engine {
   bool collecting_ = false;
   std::vector<Impact> impacts_;
   std::vector<std::pair<std::int32_t, std::int32_t>> touched_;  // contacts of the previous step
+  TouchLog touches_;
 
   void forces(double duration);
   void account(double duration);

@@ -4,6 +4,7 @@
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
+#include <cereal/types/vector.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -31,6 +32,7 @@ StochasticEngine::StochasticEngine(Grains<2> grains, const Domain<2>& domain, co
     throw WorkError(fmt::format("the stochastic model moves one ball, not {}", grains_.moving));
   place_ = grains_.place(0), velocity_ = grains_.speed(0);
   if (!(velocity_[0] > 0)) throw WorkError("the stochastic model's ball must start downhill: velocity > 0");
+  for (auto& force : no_force_) force.assign(grains_.size(), 0);
   start_energy_ = kinetic(grains_.mass[0], velocity_);
   // The first flight is from the start down to the tops of the beads.
   const double pull = -gravity()[1], above = std::max(0.0, place_[1] - height_), up = velocity_[1];
@@ -69,7 +71,10 @@ void StochasticEngine::next_flight() {
   const double normal = 0.5 * mass * hop->v_n * hop->v_n * (1 - model_.restitution * model_.restitution);
   normal_loss_ += normal;
   shear_loss_ += kinetic(mass, hop->before) - kinetic(mass, hop->after) - normal;
-  if (collecting_) impacts_.push_back(impact(*hop));
+  Impact now = impact(*hop);
+  touches_.begin(now);
+  touches_.end(begin_, 0, static_cast<std::size_t>(now.bead));
+  if (collecting_) impacts_.push_back(now);
   velocity_ = hop->after;
   end_ = begin_ + hop->time;
 }
@@ -110,26 +115,7 @@ void StochasticEngine::show() {
   }
 }
 
-GrainsView StochasticEngine::grains() const {
-  GrainsView view;
-  view.time = time();
-  view.moving = 1;
-  for (std::size_t k = 0; k < 2; ++k) {
-    view.position[k] = grains_.position[k];
-    view.velocity[k] = grains_.velocity[k];
-    view.wraps[k] = grains_.wraps[k];
-    const auto axis = static_cast<int>(k);
-    view.period[k] = domain_.periodic(axis) ? domain_.length[axis] : 0;
-  }
-  // No forces are known between impacts, and the ball does not turn: a resting bed has the same zeros.
-  view.force = {grains_.spin[0], grains_.spin[0], {}};
-  view.angle[0] = grains_.angle[0];
-  view.spin[0] = grains_.spin[0];
-  view.radius = grains_.radius;
-  view.mass = grains_.mass;
-  view.inertia = grains_.inertia;
-  return view;
-}
+GrainsView StochasticEngine::grains() const { return view_of(grains_, no_force_, domain_, time()); }
 
 EnergyAccount StochasticEngine::energy() const {
   EnergyAccount e;
@@ -147,7 +133,7 @@ EnergyAccount StochasticEngine::energy() const {
 void StochasticEngine::save(std::ostream& out) const {
   cereal::PortableBinaryOutputArchive archive(out);
   archive(walk_.velocity().c, walk_.trapped(), begin_, end_, place_.c, velocity_.c, draws_, step_,
-          gravity_work_, normal_loss_, shear_loss_, start_energy_);
+          gravity_work_, normal_loss_, shear_loss_, start_energy_, touches_);
 }
 
 void StochasticEngine::restore(std::istream& in) {
@@ -155,7 +141,7 @@ void StochasticEngine::restore(std::istream& in) {
   Vec<2> velocity;
   bool trapped = false;
   archive(velocity.c, trapped, begin_, end_, place_.c, velocity_.c, draws_, step_, gravity_work_,
-          normal_loss_, shear_loss_, start_energy_);
+          normal_loss_, shear_loss_, start_energy_, touches_);
   walk_.restore(velocity, trapped);
   random_ = Random(seed_, Purpose::stochastic);
   for (std::int64_t k = 0; k < draws_; ++k) random_.uniform();  // one number per impact

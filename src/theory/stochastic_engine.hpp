@@ -46,6 +46,8 @@ class StochasticEngine final : public Engine {
   double gravity_work_ = 0, normal_loss_ = 0, shear_loss_ = 0, start_energy_ = 0;
   bool collecting_ = false;
   std::vector<Impact> impacts_;
+  TouchLog touches_{1, 0};
+  std::array<Array, 2> no_force_;  // none is known between impacts; the ball does not turn either
 
   Vec<2> gravity() const;
   void next_flight();

@@ -14,5 +14,6 @@ TEST_CASE("the arrays have the names of the design page") {
     INFO(name);
     CHECK(grains.count(name) == 1);
   }
-  CHECK(impacts == std::set<std::string_view>{"time", "gamma", "phi", "v_n", "v_t", "bead", "grain"});
+  CHECK(impacts == std::set<std::string_view>{"time", "gamma", "phi", "v_n", "v_t", "flight", "gamma_before",
+                                              "rolling", "bead", "grain"});
 }

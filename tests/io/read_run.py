@@ -103,7 +103,8 @@ with tempfile.TemporaryDirectory() as folder:
     impacts = read(os.path.join(run, "impacts.vtp"))
     check_field_data(impacts, "impacts.vtp")
     arrays = names(impacts.GetPointData())
-    check(set(arrays) == {"time", "gamma", "phi", "v_n", "v_t", "bead", "grain"}, "impacts' arrays")
+    check(set(arrays) == {"time", "gamma", "phi", "v_n", "v_t", "flight", "gamma_before", "rolling",
+                          "bead", "grain"}, "impacts' arrays")
     check(impacts.GetNumberOfPoints() > 10, "some impacts")
     last = 0
     for i in range(impacts.GetNumberOfPoints()):

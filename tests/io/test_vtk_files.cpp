@@ -119,7 +119,7 @@ TEST_CASE("3D grains keep their third components") {
 
 TEST_CASE("impacts come back from VTK as they were") {
   std::vector<Impact> impacts(2);
-  impacts[0] = {1.25, 7, 3, {0.1, 0.2, 0.3}, 0.4, -0.5, -0.6, 0.7};
+  impacts[0] = {1.25, 7, 3, {0.1, 0.2, 0.3}, 0.4, -0.5, -0.6, 0.7, 0.01, -0.3, true};
   impacts[1] = {2.5, 8, 4, {1, 2, 3}, -0.4, 0.5, -1.6, -0.7};
   const auto data = read_back(io::impacts_vtp(impacts, facts));
   REQUIRE(data->GetNumberOfPoints() == 2);
@@ -133,6 +133,9 @@ TEST_CASE("impacts come back from VTK as they were") {
     CHECK(value("phi") == impact.phi);
     CHECK(value("v_n") == impact.v_n);
     CHECK(value("v_t") == impact.v_t);
+    CHECK((std::isnan(impact.flight) ? std::isnan(value("flight")) : value("flight") == impact.flight));
+    CHECK((i == 0 ? value("gamma_before") == -0.3 : std::isnan(value("gamma_before"))));
+    CHECK(value("rolling") == impact.rolling);
     CHECK(value("bead") == static_cast<double>(impact.bead));
     CHECK(value("grain") == static_cast<double>(impact.grain));
     for (int k = 0; k < 3; ++k) CHECK(data->GetPoint(i)[k] == impact.place[static_cast<std::size_t>(k)]);

@@ -130,3 +130,33 @@ TEST_CASE("contacts that lasted when collecting began are no impacts") {
   watched.advance_to(from + 200);
   CHECK(engine.take_impacts().size() == watched.take_impacts().size());
 }
+
+TEST_CASE("a soft ball dropped on the top of a bead: the flights are 2v/g of the velocity it leaves with") {
+  // Stiff enough for gravity not to matter in an impact: the velocity falls by e_n, each flight lasts 2v/g.
+  const double height = 0.2, dt = Oscillator{stiffness, 0, 1}.contact_time() / 50;
+  const double q = -std::log(0.8) / pi;  // (3.2): damping that restores 0.8, m = 1
+  const double damping = 2 * q * std::sqrt(stiffness / (1 + q * q));
+  Grains<2> grains;
+  add_ball<2>(grains, {{0, ball + bead + height}}, {{0, 0}}, ball, 1);
+  add_ball<2>(grains, {{0, 0}}, {{0, 0}}, bead, 1, false);
+  auto s = setup<2>(smooth(stiffness, damping), dt, 1);
+  s.gravity = {{0, -1}};
+  s.contact_time = Oscillator{stiffness, 0, 1}.contact_time();
+  soft::SoftEngine<2> engine(grains, s);
+  engine.collect_impacts(true);
+  engine.advance_to(static_cast<std::int64_t>(8 / dt));
+  const auto impacts = engine.take_impacts();
+  REQUIRE(impacts.size() > 12);
+  CHECK(std::isnan(impacts[0].flight));
+  double v = std::sqrt(2 * height);
+  for (std::size_t k = 1; k < 8; ++k) {
+    CHECK(impacts[k].flight == Approx(-2 * impacts[k].v_n).margin(3 * dt));
+    v *= 0.8;
+    CHECK(impacts[k].flight == Approx(2 * v).epsilon(0.01));
+    CHECK(impacts[k].gamma_before == Approx(0).margin(1e-12));
+    CHECK_FALSE(impacts[k].rolling);
+  }
+  // The end of the bounces: flights shorter than four contact times are rolling contact.
+  CHECK(impacts.back().rolling);
+  for (const auto& impact : impacts) CHECK(impact.rolling == (impact.flight < 4 * s.contact_time));
+}
