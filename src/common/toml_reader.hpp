@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/range.hpp"
+
 /// Reading validated TOML. A type describes its keys once:
 ///
 ///     template <class Archive> void describe(Archive& a, Bed& bed) {
@@ -22,22 +24,6 @@
 /// and that one list reads it (TomlReader), writes it back complete (TomlWriter), and knows which keys exist,
 /// so that a slip of the pen is answered with the file, the line and the nearest key.
 namespace chute {
-
-/// Allowed interval of a number.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false, high_open = false;
-  bool contains(double x) const;
-  std::string describe() const;  ///< "> 0", "in [0, 1]" …
-};
-inline constexpr double unbounded = std::numeric_limits<double>::infinity();
-inline constexpr Range any_number{};
-inline constexpr Range positive{0, unbounded, true, false};
-inline constexpr Range non_negative{0, unbounded, false, false};
-inline constexpr Range unit_interval{0, 1, false, false};
-inline constexpr Range at_least(double low) { return {low, unbounded, false, false}; }
-inline constexpr Range between(double low, double high) { return {low, high, false, false}; }
 
 /// The known word closest to `word` if it looks like a slip of it, else empty.
 std::string nearest(std::string_view word, std::span<const std::string> known);

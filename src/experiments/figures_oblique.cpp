@@ -68,7 +68,7 @@ std::vector<ObliqueSeries> mindlin_spring(bool quick) {
     const laws::PairCoefficient k{ratio * Acetate::hertz_stiffness, 0, 0, 0};
     all.push_back({"",
                    std::move(series),
-                   {viscoelastic(), laws::MindlinSpring{k, {Acetate::friction, false}}},
+                   {viscoelastic(), laws::MindlinSpring{k, {Acetate::friction, false}, false}},
                    v,
                    quick ? 500.0 : 5000.0});
   };

@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 
+#include "laws/keys.hpp"
 #include "laws/slip.hpp"
 
 namespace chute::laws {
@@ -13,7 +14,14 @@ namespace chute::laws {
 /// energy account takes it for dissipation: its residual then says how much too much. Use (3.12) or (3.13)
 /// there.
 struct Coulomb {
+  static constexpr std::string_view name = "coulomb";
+
   double friction = 0;  ///< μ
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.required("friction", friction, non_negative);
+  }
 
   template <int T>
   Vec<T> operator()(const Vec<T>& slip, double normal_force, Pair) const {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "laws/keys.hpp"
 #include "laws/slip.hpp"
 
 namespace chute::laws {
@@ -17,6 +18,12 @@ namespace chute::laws {
 struct CutOffSpring {
   double friction = 0;  ///< μ
   bool cap = true;      ///< (3.25)
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.required("friction", friction, non_negative);
+    a.value("cap", cap);
+  }
 
   template <int T>
   Vec<T> force(const Slip<T>& slip, double stiffness, Vec<T>& zeta) const {
@@ -41,12 +48,23 @@ struct CutOffSpring {
 ///
 ///     F_s = −min(k_s |ζ|, μ |F_n|) ζ / |ζ|,    ζ = ∫ v_s dt (3.14)
 struct CundallStrack {
+  static constexpr std::string_view name = "cundall-strack";
   static constexpr int vectors = 1, scalars = 0;
   template <int T>
   using Memory = SlipMemory<T, vectors, scalars>;
 
   PairCoefficient stiffness;  ///< k_s, N/m
   CutOffSpring spring;
+
+  struct Keys : SpringKeys {
+    CutOffSpring spring;
+    template <class Archive>
+    void describe(Archive& a) {
+      spring.describe(a);
+      SpringKeys::describe(a);
+    }
+    CundallStrack make(const PairCoefficient& k_n) const { return {resolve(k_n), spring}; }
+  };
 
   bool needs_radius() const { return stiffness.needs_radius(); }
   /// Stiffness while the overlap is `xi`.

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "laws/mass_scaling.hpp"
+#include "laws/keys.hpp"
 #include "laws/normal_force.hpp"
-#include "laws/pair.hpp"
 
 namespace chute::laws {
 
@@ -21,6 +20,11 @@ inline double effective_modulus(double young_i, double poisson_i, double young_j
 /// is the elastic part of (3.5) and (3.6) too.
 class Hertz {
  public:
+  static constexpr std::string_view name = "hertz";
+  static constexpr UnitName stiffness_unit = hertz_stiffness_unit;
+  static constexpr bool hertz_spring = true;
+  using Keys = struct ElasticHertzKeys;
+
   static Hertz from_stiffness(double stiffness, MassScaling scaling = MassScaling::none) {
     Hertz law;
     (scaling == MassScaling::both ? law.stiffness_.per_mass : law.stiffness_.constant) = stiffness;

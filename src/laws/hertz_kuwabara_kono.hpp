@@ -1,6 +1,5 @@
 #pragma once
-#include "laws/hertz.hpp"
-#include "laws/normal_impact.hpp"
+#include "laws/hertz_keys.hpp"
 
 namespace chute::laws {
 
@@ -12,6 +11,12 @@ namespace chute::laws {
 /// relaxation time A of the material, γ_n = 3/2 A k_n, which is the same for all pairs of one material.
 class HertzKuwabaraKono {
  public:
+  static constexpr std::string_view name = "hertz-kuwabara-kono";
+  static constexpr UnitName stiffness_unit = hertz_stiffness_unit,
+                            damping_unit{"kg/(m^0.5 s)", "m sqrt(g)/d"};
+  static constexpr bool hertz_spring = true;
+  struct Keys;
+
   static HertzKuwabaraKono from_damping(const Hertz& elastic, double damping, MassScaling scaling) {
     HertzKuwabaraKono law(elastic);
     (scaling == MassScaling::none ? law.damping_.constant : law.damping_.per_mass) = damping;
@@ -42,6 +47,30 @@ class HertzKuwabaraKono {
   explicit HertzKuwabaraKono(const Hertz& elastic) : elastic_(elastic) {}
   Hertz elastic_;
   PairCoefficient damping_;
+};
+
+/// Besides e_n or γ_n it takes the relaxation time A. One material has one A, so that is what a restitution
+/// of the reference pair fixes; a given γ_n is that of every pair.
+struct HertzKuwabaraKono::Keys : DampedHertzKeys {
+  std::optional<double> relaxation;
+
+  template <class Archive>
+  void describe(Archive& a) {
+    describe_spring(a);
+    DampingKeys::describe(a);
+    a.value("relaxation", relaxation, non_negative);
+    describe_rest(a);
+    a.check(count_given(restitution, damping, relaxation) == 1, damping ? "damping" : "restitution",
+            "give one of restitution, damping and relaxation");
+    check_time(a, contact_time);
+  }
+  HertzKuwabaraKono make(const Reference& reference) const {
+    if (relaxation) return from_relaxation(spring(0), *relaxation);
+    return damped(reference, [&](const Hertz& elastic, double gamma) {
+      return damping ? from_damping(elastic, gamma, mass_scaling)
+                     : from_relaxation(elastic, gamma / (1.5 * elastic.stiffness(reference.pair)));
+    });
+  }
 };
 
 }  // namespace chute::laws

@@ -1,6 +1,5 @@
 #pragma once
-#include "laws/hertz.hpp"
-#include "laws/normal_impact.hpp"
+#include "laws/hertz_keys.hpp"
 
 namespace chute::laws {
 
@@ -13,6 +12,11 @@ namespace chute::laws {
 /// t^{-2}.
 class HertzLinearDamping {
  public:
+  static constexpr std::string_view name = "hertz-linear-damping";
+  static constexpr UnitName stiffness_unit = hertz_stiffness_unit, damping_unit{"kg/s", "m sqrt(g/d)"};
+  static constexpr bool hertz_spring = true;
+  struct Keys;
+
   /// γ_n in kg/s, multiplied by m_eff with the mass conventions `damping` and `both`.
   HertzLinearDamping(const Hertz& elastic, double damping, MassScaling scaling) : elastic_(elastic) {
     (scaling == MassScaling::none ? damping_.constant : damping_.per_mass) = damping;
@@ -36,6 +40,14 @@ class HertzLinearDamping {
  private:
   Hertz elastic_;
   PairCoefficient damping_;
+};
+
+struct HertzLinearDamping::Keys : DampedHertzKeys {
+  HertzLinearDamping make(const Reference& reference) const {
+    return damped(reference, [this](const Hertz& elastic, double gamma) {
+      return HertzLinearDamping(elastic, gamma, mass_scaling);
+    });
+  }
 };
 
 }  // namespace chute::laws

@@ -1,5 +1,6 @@
 #pragma once
-#include <algorithm>
+#include <array>
+#include <optional>
 #include <variant>
 
 #include "laws/coulomb.hpp"
@@ -16,11 +17,14 @@
 #include "laws/walton_braun_mindlin.hpp"
 
 /// Every law that a scene can name. The engine chooses once per step and runs a loop with the law inlined.
-/// To add a law: one header beside this, one word here, and its keys in scene/contact.cpp.
+/// To add a law: one header beside this, and its name in one of the two lists here.
+///
+/// Every law has its `name` in scenes, and describes its keys: itself, or by a type `Keys` (laws/keys.hpp).
 ///
 /// A normal law is a function (ξ, dξ/dt, Pair) → NormalForce with an `energy(ξ, Pair)`; one with a memory
 /// names the numbers that it keeps per contact, `memory`, takes them as last argument and returns a
-/// RememberedForce. Both answer `needs_radius`, `stiffness(Pair)`, `damping(Pair)` and `impact(speed, Pair)`.
+/// RememberedForce. Both answer `needs_radius`, `stiffness(Pair)`, `damping(Pair)` and `impact(speed, Pair)`;
+/// `stiffness_coefficient` is what k_s/k_n is a multiple of.
 ///
 /// A tangential law is a function (v_s, F_n, Pair) → F_s on the second grain; what it takes is F_s · v_s. One
 /// with a memory names its `vectors` and `scalars`, is a function (Slip, SlipMemory) → F_s, and has an
@@ -36,6 +40,32 @@ struct Contact {
   Shear shear;
   bool attraction = true;  ///< may damping pull the grains together at the end? false: F_n is clipped at 0
 };
+
+/// What a scene says of a law: its `Keys`, or the law itself.
+template <class Law>
+struct KeysOf {
+  using Type = Law;
+};
+template <class Law>
+requires requires { typename Law::Keys; }
+struct KeysOf<Law> {
+  using Type = typename Law::Keys;
+};
+
+template <class Laws>
+struct ListOf;
+template <class... Law>
+struct ListOf<std::variant<Law...>> {
+  using Keys = std::variant<typename KeysOf<Law>::Type...>;
+  static constexpr std::array<std::string_view, sizeof...(Law)> names{Law::name...};
+  /// Hertz's spring, k_n ξ^{3/2}, among the normal laws; those whose k_s/k_n asks for it among the others.
+  static constexpr std::array<bool, sizeof...(Law)> hertz_springs{requires {Law::hertz_spring;
+}...
+};  // namespace chute::laws
+}
+;
+using NormalKeys = ListOf<Normal>::Keys;
+using ShearKeys = ListOf<Shear>::Keys;
 
 template <class Law>
 concept NormalWithMemory = requires {
@@ -62,15 +92,29 @@ inline bool needs_radius(const Contact& contact) {
 inline NormalImpact normal_impact(const Contact& contact, double speed, Pair p) {
   return std::visit(
       [&]<class Law>(const Law& law) {
-        const NormalImpact free = law.impact(speed, p);
-        if constexpr (!NormalWithMemory<Law>)
-          if (!contact.attraction && law.damping(p) > 0) {
-            const auto clipped = [&](double xi, double dxi) { return std::max(0.0, law(xi, dxi, p).total); };
-            return integrate_impact(clipped, p.m_eff, speed, free.deepest / speed * 3);
-          }
-        return free;
+        if constexpr (NormalWithMemory<Law>)
+          return law.impact(speed, p);
+        else
+          return impact_of(law, contact.attraction, speed, p);
       },
       contact.normal);
 }
+
+/// μ of a tangential law, if it has one.
+inline std::optional<double> friction(const Shear& shear) {
+  return std::visit(
+      [](const auto& law) -> std::optional<double> {
+        if constexpr (requires { law.friction; })
+          return law.friction;
+        else if constexpr (requires { law.spring.friction; })
+          return law.spring.friction;
+        else
+          return {};
+      },
+      shear);
+}
+
+/// The laws that a scene's keys come to.
+Contact make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference);
 
 }  // namespace chute::laws

@@ -1,7 +1,9 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 
 #include "laws/normal_force.hpp"
+#include "laws/pair.hpp"
 
 /// Head-on impacts by numerical integration, for laws without a closed form.
 namespace chute::laws {
@@ -12,6 +14,15 @@ namespace chute::laws {
 /// Grains that creep apart ever slower, longer than 1000 time scales, count as never parting: e_n = 0.
 NormalImpact integrate_impact(const std::function<double(double, double)>& force, double m_eff, double speed,
                               double time_scale);
+
+/// A head-on impact under a law without a memory; without attraction its force is clipped at 0.
+template <class Law>
+NormalImpact impact_of(const Law& law, bool attraction, double speed, Pair p) {
+  const NormalImpact free = law.impact(speed, p);
+  if (attraction || law.damping(p) == 0) return free;
+  const auto clipped = [&](double xi, double dxi) { return std::max(0.0, law(xi, dxi, p).total); };
+  return integrate_impact(clipped, p.m_eff, speed, free.deepest / speed * 3);
+}
 
 /// The damping at which `restitution(damping)`, a function that falls from 1 at 0, takes the value e_n in (0,
 /// 1]: doubling from `guess`, then halving.

@@ -2,13 +2,15 @@
 #include <cmath>
 
 #include "core/vec.hpp"
-#include "laws/mass_scaling.hpp"
-#include "laws/pair.hpp"
+#include "laws/keys.hpp"
 
 namespace chute::laws {
 
 /// No tangential force at all: μ = 0.
 struct Frictionless {
+  static constexpr std::string_view name = "frictionless";
+  template <class Archive>
+  void describe(Archive&) {}
   template <int T>
   Vec<T> operator()(const Vec<T>&, double, Pair) const {
     return {};
@@ -22,9 +24,18 @@ struct Frictionless {
 /// γ_s is technical: large enough to come close to Coulomb's law, small enough for the time step. With mass
 /// scaling `damping` or `both` it is multiplied by m_eff.
 struct RegularisedCoulomb {
+  static constexpr std::string_view name = "coulomb-viscous";
+
   double viscosity = 0;  ///< γ_s
   double friction = 0;   ///< μ
   MassScaling scaling = MassScaling::none;
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.required("viscosity", viscosity, non_negative);
+    a.required("friction", friction, non_negative);
+    a.choice("mass_scaling", scaling, mass_scaling_words);
+  }
 
   double effective_viscosity(Pair p) const {
     return scaling == MassScaling::none ? viscosity : viscosity * p.m_eff;

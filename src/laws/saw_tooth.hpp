@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 
+#include "laws/keys.hpp"
 #include "laws/slip.hpp"
 
 namespace chute::laws {
@@ -13,12 +14,19 @@ namespace chute::laws {
 /// In 3D along ζ. The time step has to resolve ζ_0. At constant F_n the force is conservative: each tooth
 /// gives back on the way home what it took.
 struct SawTooth {
+  static constexpr std::string_view name = "saw-tooth";
   static constexpr int vectors = 1, scalars = 0;
   template <int T>
   using Memory = SlipMemory<T, vectors, scalars>;
 
   double friction = 0;  ///< μ
   double length = 0;    ///< ζ_0
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.required("friction", friction, non_negative);
+    a.required("tooth", length, positive);
+  }
 
   bool needs_radius() const { return false; }
   /// Stiffness of a tooth under the normal force F_n.

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "laws/mass_scaling.hpp"
-#include "laws/normal_force.hpp"
-#include "laws/pair.hpp"
+#include "laws/keys.hpp"
+#include "laws/normal_impact.hpp"
 
 namespace chute::laws {
 
@@ -22,6 +21,10 @@ namespace chute::laws {
 /// takes the damping that gives the asked restitution in that case.
 class SpringDashpot {
  public:
+  static constexpr std::string_view name = "spring-dashpot";
+  static constexpr UnitName stiffness_unit = linear_stiffness_unit, damping_unit{"kg/s", "m sqrt(g/d)"};
+  struct Keys;
+
   static SpringDashpot from_restitution(double stiffness, double e_n, bool attraction = true) {
     const double log_e = std::log(e_n);
     SpringDashpot law;
@@ -93,6 +96,28 @@ class SpringDashpot {
       (clipped_restitution(middle) > e_n ? low : high) = middle;
     }
     return (low + high) / 2;
+  }
+};
+
+/// k_n (N/m) or t_n of the reference pair; e_n, of every pair, or γ_n (kg/s).
+struct SpringDashpot::Keys : DampingKeys {
+  std::optional<double> stiffness, contact_time;
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.value("stiffness", stiffness, positive);
+    a.value("contact_time", contact_time, positive);
+    DampingKeys::describe(a);
+    describe_scaling(a);
+    a.check(count_given(stiffness, contact_time) == 1, "law", "give either stiffness or contact_time");
+    check(a, contact_time);
+  }
+  SpringDashpot make(const Reference& reference) const {
+    if (damping) return from_damping(*stiffness, *damping, mass_scaling);
+    const auto with = [&](double k) { return from_restitution(k, *restitution, reference.attraction); };
+    if (stiffness) return with(*stiffness);
+    const double t_n = impact_of(with(1), reference.attraction, 1, reference.pair).contact_time;
+    return with(std::pow(t_n / *contact_time, 2));  // t_n ∝ k_n^{-1/2} at equal restitution
   }
 };
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "laws/keys.hpp"
 #include "laws/normal_force.hpp"
-#include "laws/pair.hpp"
 
 namespace chute::laws {
 
@@ -22,7 +22,10 @@ namespace chute::laws {
 /// Remembers ξ_max. The contact forgets its deformation when ξ returns to 0.
 class WaltonBraun {
  public:
+  static constexpr std::string_view name = "walton-braun";
+  static constexpr UnitName stiffness_unit = linear_stiffness_unit;
   static constexpr int memory = 1;
+  struct Keys;
 
   /// k_1, k_2 in N/m, k_2 ≥ k_1.
   static WaltonBraun from_stiffnesses(double loading, double unloading) { return {loading, unloading, 0}; }
@@ -71,6 +74,30 @@ class WaltonBraun {
   /// Energy that a loading up to ξ_max has cost for good: the area between the two lines.
   double lost(double xi_max) const {
     return 0.5 * k_1_ * xi_max * xi_max * (1 - k_1_ / unloading_stiffness(xi_max));
+  }
+};
+
+/// k_1, and one of e_n, k_2 and s.
+struct WaltonBraun::Keys {
+  double stiffness = 0;
+  std::optional<double> restitution, unloading_stiffness, hardening, at_velocity;
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.required("stiffness", stiffness, positive);
+    a.value("restitution", restitution, restitution_range);
+    a.value("unloading_stiffness", unloading_stiffness, positive);
+    a.value("hardening", hardening, non_negative);
+    if (hardening) a.required("at_velocity", at_velocity, positive);
+    a.check(count_given(restitution, unloading_stiffness, hardening) == 1, "law",
+            "give one of restitution, unloading_stiffness and hardening");
+    a.check(!unloading_stiffness || *unloading_stiffness >= stiffness, "unloading_stiffness",
+            "must not be less than the stiffness of the loading");
+  }
+  WaltonBraun make(const Reference&) const {
+    return restitution ? from_restitution(stiffness, *restitution)
+           : hardening ? from_hardening(stiffness, *hardening)
+                       : from_stiffnesses(stiffness, *unloading_stiffness);
   }
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "laws/keys.hpp"
 #include "laws/slip.hpp"
 
 namespace chute::laws {
@@ -19,12 +20,23 @@ namespace chute::laws {
 /// which turns with the contact plane, follows this law; the one across is a spring k_s0, and both together
 /// are kept within the limit.
 struct WaltonBraunMindlin {
+  static constexpr std::string_view name = "walton-braun-mindlin";
   static constexpr int vectors = 2, scalars = 3;
   template <int T>
   using Memory = SlipMemory<T, vectors, scalars>;
 
   PairCoefficient stiffness;  ///< k_s0, N/m
   double friction = 0;        ///< μ
+
+  struct Keys : SpringKeys {
+    double friction = 0;
+    template <class Archive>
+    void describe(Archive& a) {
+      a.required("friction", friction, non_negative);
+      SpringKeys::describe(a);
+    }
+    WaltonBraunMindlin make(const PairCoefficient& k_n) const { return {resolve(k_n), friction}; }
+  };
 
   bool needs_radius() const { return stiffness.needs_radius(); }
   double stiffness_at(double, Pair p) const { return stiffness(p); }

@@ -16,8 +16,7 @@ namespace {
 using Method = scene::EngineSpec::Method;
 
 laws::NormalImpact reference_impact(const scene::Scene& scene) {
-  const auto pair = scene.reference_pair();
-  return laws::normal_impact(scene.contact.laws(pair), scene::impact_velocity(scene.contact), pair);
+  return scene::reference_impact(scene.contact, scene.reference_pair());
 }
 
 /// Walton's collision with what [engine] says, and else what [contact] comes to for the reference pair.
@@ -29,7 +28,8 @@ event::HardContact hard_contact(const scene::Scene& scene) {
   if (engine.restitution_velocity)
     contact.restitution =
         laws::PowerLawRestitution{1 - e_n, *engine.restitution_velocity, engine.restitution_exponent};
-  contact.tangential = {engine.friction.value_or(scene.contact.tangential.friction),
+  const auto shear = scene.contact.laws(scene.reference_pair()).shear;
+  contact.tangential = {engine.friction.value_or(laws::friction(shear).value_or(0)),
                         engine.tangential_restitution};
   return contact;
 }

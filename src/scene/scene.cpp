@@ -228,7 +228,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   Scene scene;
   describe(reader, scene);
   reader.finish();
-  check_contact_time(scene, reader);
+  check_contact_time(scene.contact, scene.reference_pair(), reader);
   if (const auto wrong = misfit(scene)) reader.fail(wrong->key, wrong->message);
   return scene;
 }

@@ -87,7 +87,7 @@ TEST_CASE("psi_f of (3.22) with (3.6) against an independent integration") {
             return -std::min(ratio * K * std::sqrt(xi) * std::abs(zeta), mu * std::abs(F)) * sign(zeta);
           },
           [=](double xi, double u) { return K * std::pow(xi, 1.5) + 190 * std::sqrt(xi) * u; }, scale);
-      const double found = simulated(psi, {kono, laws::MindlinSpring{{ratio * K, 0, 0, 0}, {mu, false}}}, v);
+      const double found = simulated(psi, {kono, laws::MindlinSpring{{ratio * K, 0, 0, 0}, {mu, false}, false}}, v);
       INFO("psi_i " << psi << ": " << found << ", truth " << expected);
       CHECK(std::abs(found - expected) < 2e-4);
     }

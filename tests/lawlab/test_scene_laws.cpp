@@ -29,8 +29,7 @@ duration = 1e-3
 scene::Scene parse(const std::string& contact) { return scene::parse_scene(text(contact), "test.toml"); }
 
 laws::NormalImpact impact_of(const scene::Scene& s) {
-  const auto pair = s.reference_pair();
-  return laws::normal_impact(s.contact.laws(pair), scene::impact_velocity(s.contact), pair);
+  return scene::reference_impact(s.contact, s.reference_pair());
 }
 
 const std::string frictionless = "[contact.tangential]\nlaw = \"frictionless\"\n";
