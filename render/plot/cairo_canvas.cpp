@@ -139,13 +139,9 @@ class Canvas {
   /// A long scatter plot as a transparent picture of 600 dpi: a PDF with 10^5 circles opens slowly
   /// everywhere.
   void dots_as_picture(const DotsItem& item) {
-    Rect box = Rect::nothing();
-    for (Point p : item.at) box.include(p);
-    const Rect shape = item.shape.bounds();
-    box = {std::max(clip_.left, box.left + shape.left), std::max(clip_.top, box.top + shape.top),
-           std::min(clip_.right, box.right + shape.right), std::min(clip_.bottom, box.bottom + shape.bottom)};
+    const Rect box = visible_box(item, clip_);
     if (box.left >= box.right || box.top >= box.bottom) return;
-    constexpr double per_point = 600 / 72.0;
+    constexpr double per_point = dots_dpi / 72;
     const int width = static_cast<int>(std::ceil(box.width() * per_point));
     const int height = static_cast<int>(std::ceil(box.height() * per_point));
     cairo_surface_t* picture = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
@@ -166,6 +162,14 @@ class Canvas {
 };
 
 }  // namespace
+
+Rect visible_box(const DotsItem& item, const Rect& clip) {
+  Rect box = Rect::nothing();
+  for (Point p : item.at) box.include(p);
+  const Rect shape = item.shape.bounds();
+  return {std::max(clip.left, box.left + shape.left), std::max(clip.top, box.top + shape.top),
+          std::min(clip.right, box.right + shape.right), std::min(clip.bottom, box.bottom + shape.bottom)};
+}
 
 void check_cairo(cairo_status_t status, const char* doing) {
   if (status != CAIRO_STATUS_SUCCESS)

@@ -13,6 +13,11 @@ enum class Target { file, pixels };
 /// Unit of the surface: points times `scale`.
 void draw_on_cairo(cairo_t* cairo, const DisplayList& list, double scale, Target target);
 
+/// Pixels per inch of scatter plots that are put into a file as a picture.
+inline constexpr double dots_dpi = 600;
+/// What of the dots shows inside `clip`; turned inside out if nothing does.
+Rect visible_box(const DotsItem& item, const Rect& clip);
+
 /// WorkError if Cairo says that something went wrong.
 void check_cairo(cairo_status_t status, const char* doing);
 

@@ -1,17 +1,16 @@
 #include "plot/draw.hpp"
 
 #include <cairo-pdf.h>
-#include <cairo-svg.h>
 
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <map>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "image/png.hpp"
 #include "plot/cairo_canvas.hpp"
+#include "plot/svg.hpp"
 
 namespace chute::plot {
 namespace {
@@ -21,12 +20,10 @@ cairo_status_t collect(void* bytes, const unsigned char* data, unsigned length) 
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// Draws on a vector surface; returns the file's bytes.
-std::string vector_file(const DisplayList& list,
-                        cairo_surface_t* (*create)(cairo_write_func_t, void*, double, double),
-                        const std::function<void(cairo_surface_t*)>& prepare) {
+/// The bytes of a PDF; `prepare` sets its metadata.
+std::string pdf_file(const DisplayList& list, const std::function<void(cairo_surface_t*)>& prepare) {
   std::string bytes;
-  cairo_surface_t* surface = create(collect, &bytes, list.width, list.height);
+  cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(collect, &bytes, list.width, list.height);
   cairo_surface_set_fallback_resolution(surface, 600, 600);
   prepare(surface);
   cairo_t* cairo = cairo_create(surface);
@@ -48,33 +45,6 @@ void remove_creation_date(std::string& pdf) {
   if (begin == std::string::npos) return;
   const auto end = pdf.find(')', begin);
   if (end != std::string::npos && end - begin < 60) pdf.replace(begin, end + 1 - begin, end + 1 - begin, ' ');
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return out;
-}
-
-/// Cairo numbers its surfaces through the life of the program; here they count from 0 in every file.
-std::string renumber_surfaces(const std::string& svg) {
-  static const std::string word = "surface";
-  std::map<std::string, std::string> numbers;
-  std::string out;
-  std::size_t at = 0;
-  for (;;) {
-    const auto found = svg.find(word, at);
-    if (found == std::string::npos) break;
-    const bool named = found > 0 && (svg[found - 1] == '"' || svg[found - 1] == '#');
-    auto end = found + word.size();
-    while (end < svg.size() && svg[end] >= '0' && svg[end] <= '9') ++end;
-    out += svg.substr(at, found + word.size() - at);
-    const auto digits = svg.substr(found + word.size(), end - found - word.size());
-    out += named && !digits.empty() ? numbers.emplace(digits, std::to_string(numbers.size())).first->second
-                                    : digits;
-    at = end;
-  }
-  return out + svg.substr(at);
 }
 
 }  // namespace
@@ -124,7 +94,7 @@ void draw_png(const DisplayList& list, const std::filesystem::path& path, double
 }
 
 void draw_pdf(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata) {
-  auto bytes = vector_file(list, cairo_pdf_surface_create_for_stream, [&](cairo_surface_t* surface) {
+  auto bytes = pdf_file(list, [&](cairo_surface_t* surface) {
     std::string others;
     for (const auto& [word, value] : metadata) {
       const auto key = png_keyword(word);
@@ -149,19 +119,7 @@ void draw_pdf(const DisplayList& list, const std::filesystem::path& path, const 
 }
 
 void draw_svg(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata) {
-  auto svg =
-      renumber_surfaces(vector_file(list, cairo_svg_surface_create_for_stream, [](cairo_surface_t*) {}));
-  std::string head;
-  for (const auto& [key, value] : metadata)
-    if (key == "Title") head += "<title>" + escaped(value) + "</title>\n";
-  std::string rest;
-  for (const auto& [key, value] : metadata)
-    if (key != "Title") rest += escaped(key) + ": " + escaped(value) + "\n";
-  if (!rest.empty()) head += "<desc>" + rest + "</desc>\n";
-  const auto open = svg.find("<svg");
-  const auto end = open == std::string::npos ? open : svg.find(">\n", open);
-  if (end != std::string::npos) svg.insert(end + 2, head);
-  write_atomically(path, svg);
+  write_atomically(path, svg_text(list, metadata));
 }
 
 }  // namespace chute::plot

@@ -29,6 +29,7 @@ void draw_png(const DisplayList& list, const std::filesystem::path& path, double
               const Metadata& metadata = {});
 /// Exact page size; fonts embedded and subset; text can be selected and searched.
 void draw_pdf(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata = {});
+/// Text is text too, set in the file's own subset of STIXGeneral; editors want the font installed.
 void draw_svg(const DisplayList& list, const std::filesystem::path& path, const Metadata& metadata = {});
 
 /// Names and versions of the libraries that pixels depend on, for whoever stores pictures.

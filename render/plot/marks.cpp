@@ -93,7 +93,7 @@ class SeriesPainter {
     p_.list.stroke(path,
                    {width, dashed ? dash_pattern(ink_.dash, width) : std::vector<double>{}, Cap::butt,
                     has_bins(s_.kind) ? Join::miter : Join::round},
-                   ink_.color);
+                   s_.faint ? ink_.color.with_alpha(0.35) : ink_.color);
     mark_polyline(p_.occupied, points, frame_.rect, width);
     if (s_.kind == Kind::steps) mark_bins();
   }

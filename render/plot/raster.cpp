@@ -5,7 +5,7 @@
 #include "common/error.hpp"
 #include "plot/draw.hpp"
 #include "plot/fonts.hpp"
-#include "plot/gl_context.hpp"
+#include "plot/gl_functions.hpp"
 #include "plot/outline.hpp"
 
 /// The pixel back end. Every path becomes triangles; the stencil buffer collects what they cover, then one
@@ -132,7 +132,7 @@ void main() { painted = shade; }
 
 class Raster {
  public:
-  Raster(int samples) : gl_(context_.call), samples_(samples), side_(tile_pixels * samples) {
+  Raster(int samples) : samples_(samples), side_(tile_pixels * samples) {
     program();
     target();
     GLuint array = 0;
@@ -167,8 +167,9 @@ class Raster {
   }
 
  private:
-  gl::Context context_;
-  gl::Functions& gl_;
+  gl::KeepCurrent before_;
+  gl::Context context_{16, 16, 0};  // its own buffer is never drawn to: there is a framebuffer, see target()
+  GlFunctions gl_;
   int samples_, side_;
   GLuint triangles_ = 0, cover_ = 0, places_ = 0;
   GLint origin_ = 0, scale_ = 0, color_ = 0;
@@ -312,7 +313,11 @@ class Raster {
 
 }  // namespace
 
-std::string drawing_versions() { return gl::Context().version() + "; " + Fonts::versions(); }
+std::string drawing_versions() {
+  const gl::KeepCurrent before;
+  const gl::Context context(16, 16, 0);
+  return gl::Context::version() + "; " + Fonts::versions();
+}
 
 image::Image rasterise(const DisplayList& list, double dpi) {
   const int width = static_cast<int>(std::lround(list.width * dpi / 72));

@@ -9,6 +9,7 @@
 #include "plot/draw.hpp"
 #include "plot/mathtext.hpp"
 #include "plot/scale.hpp"
+#include "view/lay_over.hpp"
 
 namespace chute::view {
 namespace {
@@ -75,19 +76,6 @@ std::string degrees_text(double radians) {
 
 }  // namespace
 
-void lay_over(image::Image& bottom, const image::Image& top, int left, int above) {
-  for (int y = std::max(0, -above); y < top.height && y + above < bottom.height; ++y)
-    for (int x = std::max(0, -left); x < top.width && x + left < bottom.width; ++x) {
-      const std::uint8_t* s = top.pixel(x, y);
-      if (s[3] == 0) continue;
-      std::uint8_t* d = bottom.pixel(x + left, y + above);
-      const int a = s[3], rest = d[3] * (255 - a), sum = 255 * a + rest;  // alphas times 255
-      for (int c = 0; c < 3; ++c)
-        d[c] = static_cast<std::uint8_t>((255 * a * s[c] + rest * d[c] + sum / 2) / sum);
-      d[3] = static_cast<std::uint8_t>((sum + 127) / 255);
-    }
-}
-
 std::string time_text(const Survey& survey, double time) {
   const auto number = fmt::format("{:.{}f}", time, survey.time_decimals);
   if (survey.units == "reduced") return fmt::format("$t = {}\\,\\sqrt{{d/g}}$", number);
@@ -131,6 +119,8 @@ Furniture::Furniture(const FrameStyle& style, const Survey& survey, const ColorM
       labels = std::max(labels, plot::set_text(tick.label, small * size).width / size);
   }
   layout_ = arrange(style, survey, aspect, title, labels);
+  if (layout_.has_plot)
+    plot_.emplace(survey.series, survey.units, style.background, layout_.plot, layout_.em);
 }
 
 void Furniture::draw_bar(DisplayList& list) const {
@@ -181,9 +171,8 @@ void Furniture::draw_bar(DisplayList& list) const {
 }
 
 ScaleBar Furniture::flat_scale(double pixels_per_unit) const {
-  const double longest = std::clamp(0.2 * layout_.scene.width(), 3 * layout_.em, 9 * layout_.em);
   ScaleBar scale;
-  scale.length = plain_length(longest / pixels_per_unit);
+  scale.length = plain_length(longest_scale(layout_.scene, layout_.em) / pixels_per_unit);
   scale.from = layout_.scale, scale.to = {layout_.scale.x + scale.length * pixels_per_unit, layout_.scale.y};
   return scale;
 }
@@ -261,11 +250,13 @@ void Furniture::stand(const ScaleBar& scale, const Directions& directions, doubl
   if (layout_.has_key) draw_key(list, arrow_pixels);
   if (layout_.has_gravity) draw_gravity(list, directions);
   standing_ = plot::rasterise_by_cairo(list, pixels);
+  if (plot_) plot_->stand(standing_);
 }
 
 void Furniture::put_on(image::Image& frame, double time) const {
   if (!style_.furniture) return;
   lay_over(frame, standing_);
+  if (plot_) plot_->put_on(frame, time);
   if (!layout_.has_time) return;
   const auto text = plot::set_text(time_text(survey_, time), layout_.em);
   const double above = std::ceil(1.5 * layout_.em), below = std::ceil(0.6 * layout_.em);

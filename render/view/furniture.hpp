@@ -1,11 +1,12 @@
 #pragma once
 #include <array>
-#include <functional>
+#include <optional>
 #include <string>
 
 #include "image/image.hpp"
 #include "plot/display_list.hpp"
 #include "view/layout.hpp"
+#include "view/series_plot.hpp"
 
 namespace chute::view {
 
@@ -22,7 +23,8 @@ struct ScaleBar {
   bool label_below = false;
 };
 
-/// All that is not grains: colour bar, time, scale bar, gravity. What stays the same is drawn once.
+/// All that is not grains: colour bar, time, scale bar, gravity, a plot beside them. What stays the same is
+/// drawn once.
 class Furniture {
  public:
   /// `aspect` of the scene, see arrange(). `map` colours the bar.
@@ -46,6 +48,7 @@ class Furniture {
   Palette palette_;
   std::string title_;
   Layout layout_;
+  std::optional<SeriesPlot> plot_;
   image::Image standing_;
 
   void draw_bar(plot::DisplayList& list) const;
@@ -55,9 +58,6 @@ class Furniture {
   plot::Color ink() const { return {palette_.ink.r, palette_.ink.g, palette_.ink.b, 1}; }
   plot::Color quiet() const { return {palette_.quiet.r, palette_.quiet.g, palette_.quiet.b, 1}; }
 };
-
-/// Lays `top` over `bottom` with its upper left corner at (left, above); both with straight alpha.
-void lay_over(image::Image& bottom, const image::Image& top, int left = 0, int above = 0);
 
 /// "t = 12.50 √(d/g)", "t = 0.125 s": the time label in the plots' TeX.
 std::string time_text(const Survey& survey, double time);

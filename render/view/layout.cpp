@@ -15,6 +15,15 @@ constexpr double bar_width = 0.85;  // of the colours
 constexpr double label_gap = 0.5;   // colours to numbers
 constexpr double longest_bar = 20;
 constexpr double gravity_width = 4.4, gravity_height = 5.0;
+constexpr double plot_width = 17, plot_height = 10;  // at least, of a plot beside or below the scene
+
+}  // namespace
+
+double longest_scale(const plot::Rect& scene, double em) {
+  return std::clamp(0.2 * scene.width(), 3 * em, 9 * em);
+}
+
+namespace {
 
 struct Fit {
   Layout layout;
@@ -64,8 +73,8 @@ Fit below(Layout layout, double width, double height, double aspect, double titl
   layout.scale = {left, above + h + 1.25 * em};
   layout.gravity = {left + w - gravity_width * em, above + h + 0.6 * em, left + w,
                     above + h + (0.6 + gravity_height) * em};
-  // between the scale bar (8 em) and the arrows: title, then colours
-  const double from = left + em * (layout.has_scale ? 9 : 0),
+  // between the scale bar with its label and the arrows: title, then colours
+  const double from = left + (layout.has_scale ? longest_scale(layout.scene, em) + 4.2 * em : 0),
                to = left + w - em * (layout.has_gravity ? gravity_width + 2 : 0);
   const double length = std::min(to - from - em * (title + 0.9 + labels), 1.3 * longest_bar * em);
   const double start = from + (to - from - length - em * (title + 0.9)) / 2;
@@ -98,9 +107,27 @@ Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, dou
   layout.has_key = style.arrows && survey.speed > 0;
   // in space the scale bar is part of the scene, only its label may reach below
   layout.foot = survey.dimensions == 2 ? foot : 0.8;
-  const auto side = beside(layout, width, height, aspect, title_width, label_width);
-  const auto under = below(layout, width, height, aspect, title_width, label_width);
-  layout = side.size >= under.size ? side.layout : under.layout;
+  const auto fit = [&](double room_width, double room_height) {
+    const auto side = beside(layout, room_width, room_height, aspect, title_width, label_width);
+    const auto under = below(layout, room_width, room_height, aspect, title_width, label_width);
+    return side.size >= under.size ? side : under;
+  };
+  if (survey.series.empty()) {
+    layout = fit(width, height).layout;
+  } else {
+    const double strip = std::max(plot_height * layout.em, 0.24 * height),
+                 column = std::max(plot_width * layout.em, 0.34 * width), edge = 0.5 * margin * layout.em;
+    const auto above = fit(width, height - strip), left = fit(width - column, height);
+    layout = above.size >= left.size ? above.layout : left.layout;
+    layout.has_plot = true;
+    if (above.size >= left.size) {
+      layout.plot = {edge, height - strip, width - edge, height - edge};
+    } else {
+      const double tall = std::min(height - 2 * edge, 0.8 * column), middle = layout.scene.centre().y;
+      const double top = std::clamp(middle - tall / 2, edge, height - edge - tall);
+      layout.plot = {width - column, top, width - edge, top + tall};
+    }
+  }
   // beside the time, if there is room
   layout.has_key = layout.has_key && layout.scene.width() > 17 * layout.em;
   return layout;

@@ -9,7 +9,8 @@ namespace chute::view {
 struct Layout {
   double em = 16;    ///< size of the type
   plot::Rect scene;  ///< the grains
-  bool has_bar = false, has_gravity = false, has_scale = false, has_time = false, has_key = false;
+  bool has_bar = false, has_gravity = false, has_scale = false, has_time = false, has_key = false,
+       has_plot = false;
   double foot = 0;          ///< room below the scene, em
   bool upright_bar = true;  ///< colour bar beside the scene; else below it
   plot::Rect bar;           ///< the colours themselves
@@ -17,6 +18,7 @@ struct Layout {
   plot::Point time;         ///< left end of the time's line
   plot::Point key;          ///< right end of the line that explains the arrows, above the scene
   plot::Point scale;        ///< left end of the scale bar
+  plot::Rect plot;          ///< the plot of a time series, its texts included
   plot::Rect gravity;       ///< the arrows that show where gravity points
 };
 
@@ -24,5 +26,8 @@ struct Layout {
 /// bar's texts.
 Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
                double label_width);
+
+/// The room for a scale bar below the scene, pixels; its label stands to the right of it.
+double longest_scale(const plot::Rect& scene, double em);
 
 }  // namespace chute::view

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-#include "view/gl_context.hpp"
+#include "gl/context.hpp"
 
 namespace chute::view {
 namespace {
@@ -21,13 +21,14 @@ void answer_yes(vtkObject*, unsigned long, void*, void* answer) { *static_cast<b
 }  // namespace
 
 struct OffscreenContext::Inside {
-  std::unique_ptr<GlContext> context;
+  gl::Context context;
   vtkNew<vtkCallbackCommand> is_current;
   vtkNew<vtkGenericOpenGLRenderWindow> window;
+
+  Inside(int width, int height) : context(width, height, 24) {}
 };
 
-OffscreenContext::OffscreenContext(int width, int height) : inside_(std::make_unique<Inside>()) {
-  inside_->context = make_osmesa_context(width, height);
+OffscreenContext::OffscreenContext(int width, int height) : inside_(std::make_unique<Inside>(width, height)) {
   inside_->is_current->SetCallback(answer_yes);
   auto* window = inside_->window.Get();
   window->AddObserver(vtkCommand::WindowIsCurrentEvent, inside_->is_current);
@@ -45,7 +46,7 @@ OffscreenContext::OffscreenContext(int width, int height) : inside_(std::make_un
 }
 
 OffscreenContext::~OffscreenContext() {
-  inside_->context->make_current();  // VTK lets go of its buffers and shaders while they exist
+  inside_->context.make_current();  // VTK lets go of its buffers and shaders while they exist
   inside_->window->Finalize();
 }
 
@@ -53,7 +54,7 @@ vtkRenderWindow* OffscreenContext::window() const { return inside_->window; }
 
 void OffscreenContext::draw(image::Image& into) {
   auto* window = inside_->window.Get();
-  inside_->context->make_current();
+  inside_->context.make_current();
   window->Render();
   const int width = window->GetSize()[0], height = window->GetSize()[1];
   if (into.width != width || into.height != height) into = image::Image(width, height);

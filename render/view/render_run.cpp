@@ -55,6 +55,11 @@ class FrameDrawer {
       : job_(job), frames_(frames), survey_(survey) {
     common_.add(fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(),
                             survey.describe(), job.radius.value_or(0)));
+    const auto add = [&](const std::vector<double>& values) {
+      common_.add({reinterpret_cast<const char*>(values.data()), sizeof(double) * values.size()});
+    };
+    if (!survey.series.empty()) add(survey.series.times);
+    for (const auto& column : survey.series.columns) common_.add(column.name), add(column.values);
   }
 
   /// True if frame `number` had to be drawn.
@@ -152,8 +157,14 @@ RenderReport render_run(const RenderJob& job) {
   const auto tell = [&](const char* what, std::size_t done, std::size_t all) {
     if (job.progress) job.progress(what, done, all);
   };
-  const Survey found =
+  TimeSeries series;
+  if (!job.plot.empty())
+    series = read_time_series(job.series.empty() ? job.source / "series.csv" : job.series, job.plot);
+  Survey found =
       survey(frames, job.style, job.radius, [&](std::size_t done) { tell("reading", done, frames.size()); });
+  if (!series.empty() && !found.has_times)
+    throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
+  found.series = std::move(series);
   if (!job.output.empty()) {
     std::error_code error;
     fs::create_directories(job.output, error);

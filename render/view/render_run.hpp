@@ -25,8 +25,10 @@ struct RenderJob {
   std::filesystem::path movie;   ///< .mp4, .gif or .png; empty: none
   double frames_per_second = 25;
   FrameRange frames;
-  int jobs = 1;                  ///< processes that draw at once
-  std::optional<double> radius;  ///< for files without radii
+  int jobs = 1;                   ///< processes that draw at once
+  std::optional<double> radius;   ///< for files without radii
+  std::vector<std::string> plot;  ///< columns of `series` that are plotted against time beside the grains
+  std::filesystem::path series;   ///< empty: the run's series.csv
   /// Hears what is being done ("reading", "drawing"), how much of it is done and how much there is.
   std::function<void(const char*, std::size_t, std::size_t)> progress;
 };

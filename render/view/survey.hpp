@@ -9,6 +9,7 @@
 #include "read/run_frames.hpp"
 #include "view/field.hpp"
 #include "view/frame_style.hpp"
+#include "view/time_series.hpp"
 
 namespace chute::view {
 
@@ -34,8 +35,9 @@ struct Survey {
   std::vector<double> times;  ///< of each frame
   bool has_times = false;
   int time_decimals = 2;
+  TimeSeries series;  ///< plotted beside the grains; empty: no plot
 
-  /// All of the above that decides pixels, as text.
+  /// All of the above that decides pixels but the series, as text.
   std::string describe() const;
 };
 

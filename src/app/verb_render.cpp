@@ -18,7 +18,8 @@ namespace chute::app {
 namespace {
 
 struct RenderArguments {
-  std::string run, output, movie, color, range, map, size, frames, camera, background = "white";
+  std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series;
+  std::vector<std::string> plot;
   double fps = 25;
   int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int trails = 0;
@@ -121,6 +122,10 @@ view::RenderJob job_of(const RenderArguments& a) {
   job.movie = a.movie, job.output = a.output;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
   if (a.radius != 0) job.radius = a.radius;
+  if (a.bare && !a.plot.empty())
+    throw InputError("--bare draws the grains alone, --plot a curve beside them");
+  if (!a.series.empty() && a.plot.empty()) throw InputError("--series: say with --plot which of its columns");
+  job.plot = a.plot, job.series = a.series;
   std::error_code error;
   if (a.output.empty() && a.movie.empty())
     job.output = std::filesystem::is_directory(job.source, error) ? job.source / "pictures" : "out/pictures";
@@ -180,6 +185,12 @@ void add_render(CLI::App& app) {
   verb->add_flag("--copies", a->copies, "faded copies beyond the periodic ends");
   verb->add_flag("--occlusion", a->occlusion, "ambient occlusion (in space)");
   verb->add_option("--trails", a->trails, "draw where each grain was in the N frames before");
+  verb->add_option(
+          "--plot", a->plot,
+          "columns of the run's series.csv, such as v_x or translation,rotation: plotted against time "
+          "beside the grains, drawn up to the frame's time")
+      ->delimiter(',');
+  verb->add_option("--series", a->series, "another table for --plot, with a column time");
   verb->add_flag("--no-spin", a->no_spin, "no spin marks on discs");
   verb->add_flag("--bare", a->bare, "the grains alone: no colour bar, time, scale and gravity");
   verb->add_option("--radius", a->radius, "radius of all grains, for files without");
@@ -188,7 +199,7 @@ void add_render(CLI::App& app) {
   verb->add_flag("--quiet", a->quiet, "no progress");
   verb->footer(
       "Pictures that are there and were drawn from the same data in the same style are kept.\n"
-      "Example: chute render out/chute-2d --tilt --movie chute.mp4");
+      "Example: chute render out/chute-2d --tilt --plot v_x --movie chute.mp4");
   verb->callback([a] { render(*a); });
 }
 

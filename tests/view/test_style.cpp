@@ -5,6 +5,7 @@
 #include "grains.hpp"
 #include "view/color_map.hpp"
 #include "view/furniture.hpp"
+#include "view/lay_over.hpp"
 #include "view/layout.hpp"
 
 using namespace chute;

@@ -1,13 +1,11 @@
 #pragma once
-#include <GL/osmesa.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
+#include "gl/context.hpp"
 
-/// OpenGL 3.3 core without a display: Mesa's software renderer. Included by back-end sources only.
-namespace chute::plot::gl {
+/// The functions of OpenGL that plots use. Included by back-end sources only.
+namespace chute::plot {
 
 #define CHUTE_GL_FUNCTIONS(X)                                      \
   X(PFNGLCREATESHADERPROC, glCreateShader)                         \
@@ -54,7 +52,6 @@ namespace chute::plot::gl {
   X(PFNGLDRAWARRAYSPROC_, glDrawArrays)                            \
   X(PFNGLREADPIXELSPROC_, glReadPixels)                            \
   X(PFNGLPIXELSTOREIPROC_, glPixelStorei)                          \
-  X(PFNGLGETSTRINGPROC_, glGetString)                              \
   X(PFNGLGETERRORPROC_, glGetError)
 
 // GL 1.x has no such types in Mesa's header; they are looked up like the rest, so that no other libGL answers
@@ -71,32 +68,12 @@ using PFNGLSTENCILOPPROC_ = void (*)(GLenum, GLenum, GLenum);
 using PFNGLDRAWARRAYSPROC_ = void (*)(GLenum, GLint, GLsizei);
 using PFNGLREADPIXELSPROC_ = void (*)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*);
 using PFNGLPIXELSTOREIPROC_ = void (*)(GLenum, GLint);
-using PFNGLGETSTRINGPROC_ = const GLubyte* (*)(GLenum);
 using PFNGLGETERRORPROC_ = GLenum (*)();
 
-struct Functions {
-#define CHUTE_GL_MEMBER(type, name) type name = nullptr;
+struct GlFunctions {
+#define CHUTE_GL_MEMBER(type, name) type name = reinterpret_cast<type>(gl::function(#name));
   CHUTE_GL_FUNCTIONS(CHUTE_GL_MEMBER)
 #undef CHUTE_GL_MEMBER
 };
 
-/// A context that is current on this thread for as long as it lives; what was current before comes back after
-/// it.
-class Context {
- public:
-  Context();  ///< WorkError if Mesa's off-screen library refuses
-  ~Context();
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-
-  Functions call;
-  std::string version() const;  ///< "Mesa 22.3.6, llvmpipe (LLVM 15.0.6, 128 bits)"
-
- private:
-  OSMesaContext context_ = nullptr, before_ = nullptr;
-  void* before_buffer_ = nullptr;
-  GLint before_width_ = 0, before_height_ = 0;
-  std::vector<std::uint8_t> buffer_;
-};
-
-}  // namespace chute::plot::gl
+}  // namespace chute::plot

@@ -1,0 +1,9 @@
+#pragma once
+#include "image/image.hpp"
+
+namespace chute::view {
+
+/// Lays `top` over `bottom` with its upper left corner at (left, above); both with straight alpha.
+void lay_over(image::Image& bottom, const image::Image& top, int left = 0, int above = 0);
+
+}  // namespace chute::view
