@@ -17,7 +17,7 @@ using Add = std::function<void(std::string name, double value, std::string unit,
 
 /// What the normal law comes to: stiffness, damping, and an impact of the reference pair.
 void normal_facts(const scene::Scene& scene, const laws::Contact& contact, bool si, const Add& add) {
-  const bool many = scene.grains.count > 1, bed = many && scene.bed.kind != scene::Bed::Kind::none;
+  const bool many = scene.interacting(), bed = many && scene.bed.kind != scene::Bed::Kind::none;
   const laws::Pair pair = scene.reference_pair();
   const double R = scene.mean_diameter() / 2, r = scene.bed.diameter / 2;
   const laws::Pair on_bed(scene.mean_mass(), R * r / (R + r));
@@ -94,7 +94,7 @@ std::vector<Fact> facts(const scene::Scene& scene) {
   const auto contact = scene.contact.laws(pair);
   const double dt = time_step(scene);
   const auto impact = laws::normal_impact(contact, scene::impact_velocity(scene.contact), pair);
-  const double chord = scene.grains.count > 1 ? d : (d + d_bed) / 2;  // R_i + R_j
+  const double chord = scene.interacting() ? d : (d + d_bed) / 2;  // R_i + R_j
   const double steps = std::ceil(scene.duration / dt);
 
   std::vector<Fact> list;
