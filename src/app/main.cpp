@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   app::add_check(app);
   app::add_info(app);
   app::add_render(app);
+  app::add_sweep(app);
   app::add_figure(app);
   app::add_compare(app);
 

@@ -1,18 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 
 #include "app/figure.hpp"
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 
 namespace chute::app {
 namespace {
-
-volatile std::sig_atomic_t stop_asked = 0;
 
 struct FigureArguments {
   std::vector<std::string> figures;
@@ -36,8 +34,7 @@ void run(const FigureArguments& arguments) {
     }
     for (const auto& figure : known_figures()) recipes.push_back(figure.recipe);
   }
-  std::signal(SIGINT, [](int) { stop_asked = 1; });
-  std::signal(SIGTERM, [](int) { stop_asked = 1; });
+  watch_for_interrupt();
   for (const auto& recipe : recipes) {
     const auto id = recipe.stem().string();
     Progress progress(id, arguments.quiet);
@@ -46,7 +43,7 @@ void run(const FigureArguments& arguments) {
     context.jobs = arguments.jobs;
     make_figure(recipe, arguments.directory, context, [&](double part) {
       progress.show(part);
-      return stop_asked == 0;
+      return !interrupted();
     });
     if (!arguments.quiet)
       fmt::print(stderr, "{}: {}/{}.png, .pdf, .svg, .csv\n", id, arguments.directory, id);

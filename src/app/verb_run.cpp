@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <csignal>
 #include <thread>
 
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
@@ -17,8 +17,6 @@ struct RunArguments {
   int threads = 1;
   bool resume = false, force = false, quiet = false;
 };
-
-volatile std::sig_atomic_t stop_asked = 0;
 
 void run(const RunArguments& arguments) {
   if (arguments.resume && arguments.force) throw InputError("--resume and --force exclude each other");
@@ -35,11 +33,10 @@ void run(const RunArguments& arguments) {
   Progress progress("run", arguments.quiet);
   options.progress = [&](double part) {
     progress.show(part);
-    return stop_asked == 0;
+    return !interrupted();
   };
   // An interrupted run leaves a checkpoint, so that --resume goes on from there.
-  std::signal(SIGINT, [](int) { stop_asked = 1; });
-  std::signal(SIGTERM, [](int) { stop_asked = 1; });
+  watch_for_interrupt();
   const auto result = run::run_scene(scene, options);
   if (!result.finished)
     throw WorkError(fmt::format("stopped; go on with: chute run {} -o {} --resume", arguments.scene,

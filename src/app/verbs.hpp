@@ -9,6 +9,7 @@ void add_run(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);
 void add_render(CLI::App& app);
+void add_sweep(CLI::App& app);
 void add_figure(CLI::App& app);
 void add_compare(CLI::App& app);
 

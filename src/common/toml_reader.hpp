@@ -189,6 +189,14 @@ class TomlWriter {
   void required_section(std::string_view key, T& target) {
     section(key, target);
   }
+  template <class T>
+  void sections(std::string_view key, std::vector<T>& target) {
+    for (auto& element : target) {
+      TomlWriter inside(prefix_.empty() ? std::string(key) : prefix_ + "." + std::string(key));
+      describe(inside, element);
+      sections_ += "\n[[" + inside.prefix_ + "]]\n" + inside.text();
+    }
+  }
   void check(bool, std::string_view, const std::string&) const {}
 
   TomlWriter() = default;

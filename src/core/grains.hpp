@@ -35,6 +35,8 @@ inline constexpr int turns = D == 2 ? 1 : 3;
 template <int D>
 struct Grains {
   std::size_t moving = 0;
+  /// Moving grains do not feel each other: many runs of one grain on the same bed, side by side.
+  bool independent = false;
   std::array<Array, D> position, velocity;
   std::array<Array, turns<D>> angle,
       spin;  ///< 3D: `angle` is the time integral of the spin, component by component

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +13,13 @@ class Csv {
  public:
   Csv(std::vector<std::string> comments, std::vector<std::string_view> columns);
   using Cell = std::optional<double>;
-  void row(std::initializer_list<Cell> cells);
+  void row(std::span<const Cell> cells);
+  void row(std::initializer_list<Cell> cells) { row(std::span(cells.begin(), cells.size())); }
   /// First cells text, the others numbers; texts must not hold commas or quotes.
-  void row(std::initializer_list<std::string_view> texts, std::initializer_list<Cell> cells);
+  void row(std::initializer_list<std::string_view> texts, std::span<const Cell> cells);
+  void row(std::initializer_list<std::string_view> texts, std::initializer_list<Cell> cells) {
+    row(texts, std::span(cells.begin(), cells.size()));
+  }
   const std::string& text() const { return text_; }
 
  private:

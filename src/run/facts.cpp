@@ -120,7 +120,7 @@ std::vector<Fact> contact_facts(const scene::ContactSpec& contact, scene::Units 
 }
 
 std::vector<Fact> facts(const scene::Scene& scene) {
-  const bool bed = scene.bed.kind != scene::Bed::Kind::none, many = scene.grains.count > 1;
+  const bool bed = scene.bed.kind != scene::Bed::Kind::none, many = scene.interacting();
   const double d = scene.mean_diameter(), d_bed = scene.bed.diameter, dt = time_step(scene);
   const double R = d / 2, r = d_bed / 2, steps = std::ceil(scene.duration / dt);
 

@@ -96,13 +96,15 @@ static void describe(Archive& a, GrainsSpec& grains) {
   a.section("diameter", grains.diameter);
   a.value("size_ratio", grains.size_ratio, positive);
   a.value("density", grains.density, positive);
+  a.value("independent", grains.independent);
+  a.value("rotation", grains.rotation);
   a.section("start", grains.start);
   if constexpr (Archive::reading) {
     a.check(grains.diameter.has_value() != grains.size_ratio.has_value(),
             grains.diameter ? "size_ratio" : "diameter",
             "give either diameter = { mean = …, std = … } or size_ratio = R/r");
-    a.check(grains.count == 1 || grains.start.lattice == Start::Lattice::square, "start",
-            "lattice = \"none\" starts a single grain; use lattice = \"square\" for more");
+    a.check(grains.count == 1 || grains.independent || grains.start.lattice == Start::Lattice::square, "start",
+            "lattice = \"none\" starts a single grain, or independent ones; use lattice = \"square\" for more");
   }
 }
 
@@ -176,6 +178,7 @@ static void describe(Archive& a, Scene& scene) {
   a.value("seed", scene.seed, non_negative);
   const bool reduced = scene.units == Units::reduced;
   if constexpr (Archive::reading) {
+    if (a.has("sweep")) a.fail("sweep", "this file describes many runs: use chute sweep");
     scene.incline.gravity = reduced ? 1 : 9.81;
     if (reduced) scene.grains.density = 6 / std::numbers::pi;
   }
@@ -188,6 +191,8 @@ static void describe(Archive& a, Scene& scene) {
   a.required_section("run", run);
   if constexpr (Archive::reading) {
     a.check(scene.grains.density > 0, "grains", "density is missing; SI scenes need it (kg/m³)");
+    a.check(!scene.grains.independent || scene.engine.method == EngineSpec::Method::soft, "engine",
+            "independent grains need method = \"soft\"");
     if (scene.engine.method == EngineSpec::Method::stochastic) {
       a.check(scene.grains.count == 1 && scene.bed.kind != Bed::Kind::none, "engine",
               "method = \"stochastic\" moves a single ball along a bed");
@@ -218,7 +223,7 @@ double Scene::mean_mass() const {
 }
 laws::Pair Scene::reference_pair() const {
   const double R = mean_diameter() / 2, r = bed.diameter / 2;
-  return grains.count > 1 ? laws::Pair(mean_mass() / 2, R / 2) : laws::Pair(mean_mass(), R * r / (R + r));
+  return interacting() ? laws::Pair(mean_mass() / 2, R / 2) : laws::Pair(mean_mass(), R * r / (R + r));
 }
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings) {

@@ -41,7 +41,8 @@ struct Diameter {
 struct Start {
   enum class Lattice { square, none } lattice = Lattice::square;
   std::optional<double> spacing;  ///< square: distance between neighbours; default 1.25 mean diameters
-  std::optional<double> x;        ///< none: place along the line; default above the first gap
+  std::optional<double> x;  ///< none: place along the line; default above the first gap, or, of independent
+                            ///< grains, evenly along the line
   std::optional<double>
       height;              ///< of the lowest centres above the bed's; default: one diameter of free space
   double velocity = 0;     ///< mean v_x
@@ -54,6 +55,8 @@ struct GrainsSpec {
   std::optional<Diameter> diameter;
   std::optional<double> size_ratio;  ///< Φ = R/r instead of a diameter
   double density = 0;  ///< grains are spheres, in 2D too; default 6/π in reduced units (m = d³)
+  bool independent = false;  ///< grains do not feel each other: `count` starts of a single grain, side by side
+  bool rotation = true;      ///< false: grains never spin, as if friction acted at their centres (thesis 4.2.4.2)
   Start start;
 };
 
@@ -114,6 +117,7 @@ struct Scene {
   double duration = 0;
   OutputSpec output;
 
+  bool interacting() const { return grains.count > 1 && !grains.independent; }  ///< moving grains may collide
   double mean_diameter() const;  ///< of the moving grains
   double mean_mass() const;
   /// Reduced mass of the contact that sets the time step: two mean grains, or the only grain with the bed.

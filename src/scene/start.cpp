@@ -63,6 +63,20 @@ void start_lattice(const Scene& scene, const std::vector<double>& radii, double 
   }
 }
 
+/// A single grain, or many that do not feel each other.
+void start_alone(const Scene& scene, const std::vector<double>& radii, const std::vector<double>& bed,
+                 double length, Grains<2>& grains) {
+  const double r_bed = scene.bed.diameter / 2, gap = bed.size() > 1 ? (bed[0] + bed[1]) / 2 : length / 2;
+  const auto n = static_cast<double>(radii.size());
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double evenly = std::fmod(gap + static_cast<double>(i) * length / n, length);
+    add_sphere(grains,
+               {{scene.grains.start.x.value_or(evenly),
+                 scene.grains.start.height.value_or(r_bed + radii[i] + 0.05 * r_bed)}},
+               radii[i], scene.grains.density, true);
+  }
+}
+
 }  // namespace
 
 std::optional<Misfit> misfit(const Scene& scene) {
@@ -99,10 +113,11 @@ Start2D make_start(const Scene& scene) {
   if (start.lattice == Start::Lattice::square) {
     start_lattice(scene, radii, length, made.grains);
   } else {
-    const double gap = bed.size() > 1 ? (bed[0] + bed[1]) / 2 : length / 2;
-    const Vec<2> place{{start.x.value_or(gap), start.height.value_or(r_bed + radii[0] + 0.05 * r_bed)}};
-    add_sphere(made.grains, place, radii[0], scene.grains.density, true);
+    start_alone(scene, radii, bed, length, made.grains);
   }
+  made.grains.independent = scene.grains.independent;
+  if (!scene.grains.rotation)
+    std::fill(made.grains.inverse_inertia.begin(), made.grains.inverse_inertia.end(), 0.0);
   for (std::size_t i = 0; i < made.grains.moving; ++i) {
     made.grains.velocity[0][i] = start.velocity + start.spread * velocities.normal();
     made.grains.velocity[1][i] = start.velocity_up + start.spread * velocities.normal();

@@ -8,6 +8,7 @@ namespace {
 
 template <int D>
 bool within(const Grains<D>& grains, const Domain<D>& domain, std::size_t i, std::size_t j, double skin) {
+  if (grains.independent && j < grains.moving) return false;
   const double reach = grains.radius[i] + grains.radius[j] + skin;
   const auto way = domain.way(grains.place(i), grains.place(j));
   return dot(way, way) < reach * reach;

@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sweep/phase.hpp"
+#include "sweep/point_store.hpp"
+#include "sweep/sweep_spec.hpp"
+
+namespace chute::sweep {
+
+/// A scene file and what is changed in it: key=value.
+struct Base {
+  std::filesystem::path file;
+  std::vector<std::string> set;
+
+  /// With further changes on top. Frames and impacts are left out: a sweep keeps none.
+  scene::Scene scene(const std::vector<std::string>& more) const;
+  Base with(const std::vector<std::string>& more) const;
+};
+
+/// One place of the grid.
+struct Place {
+  std::vector<double> values;  ///< one per axis
+  std::vector<std::string> set;
+};
+/// All combinations of the axes' values, the last axis fastest.
+std::vector<Place> grid(const std::vector<Axis>& axes);
+
+/// The starts of all seeds 1 … `seeds` of a scene, joined.
+std::vector<measure::Flow> starts_of(const Base& base, std::int64_t seeds, const PointStore& store,
+                                     const Report& progress);
+
+/// Phase boundaries of a scene along the parameter of `spec`.
+Boundaries boundaries_of(const Base& base, const BoundarySpec& spec, std::int64_t seeds, const PointStore& store,
+                         const Report& progress, bool quick = false);
+
+}  // namespace chute::sweep

@@ -1,0 +1,37 @@
+#include "sweep/sweep_file.hpp"
+
+#include "common/atomic_file.hpp"
+#include "common/toml_reader.hpp"
+
+namespace chute::sweep {
+namespace {
+
+/// What of the whole file belongs to the sweep.
+struct Section {
+  SweepSpec& spec;
+};
+template <class Archive>
+void describe(Archive& a, Section& section) {
+  a.required_section("sweep", section.spec);
+}
+
+}  // namespace
+
+SweepSpec read_sweep(const Base& base) {
+  auto table = parse_toml(read_file(base.file), base.file.string());
+  for (const auto& setting : base.set) set_by_path(table, setting);
+  TomlReader reader(table, base.file.string());
+  SweepSpec spec;
+  Section section{spec};
+  describe(reader, section);  // the scene's own keys are read, and checked, by the scene
+  return spec;
+}
+
+std::string to_toml(const Base& base, SweepSpec spec) {
+  TomlWriter writer;
+  Section section{spec};
+  describe(writer, section);
+  return scene::to_toml(base.scene(grid(spec.axes).front().set)) + writer.text();
+}
+
+}  // namespace chute::sweep

@@ -1,0 +1,68 @@
+#include "sweep/sweep_spec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace chute::sweep {
+namespace {
+
+template <class Archive>
+void describe_axis(Archive& a, Axis& axis) {
+  a.required("key", axis.key);
+  a.value("values", axis.values);
+  if (Archive::reading || axis.values.empty()) {
+    a.value("from", axis.from);
+    a.value("to", axis.to);
+    a.value("count", axis.count, at_least(0));
+    a.value("quick_count", axis.quick_count, at_least(2));
+  }
+  if (Archive::reading || !axis.unit.empty()) a.value("unit", axis.unit);
+  a.check(axis.values.empty() != (axis.count < 2), axis.values.empty() ? "count" : "values",
+          "give either values = [ … ] or from, to and count (at least 2)");
+  a.check(axis.values.empty() ? axis.from < axis.to : std::ranges::is_sorted(axis.values),
+          axis.values.empty() ? "to" : "values", "must ascend");
+}
+
+template <class Archive>
+void describe_boundary(Archive& a, BoundarySpec& spec) {
+  a.required_section("axis", spec.axis);
+  a.required("tolerance", spec.tolerance, positive);
+  a.value("velocities", spec.velocities);
+  a.value("alike", spec.alike, Range{0, 1, true, true});
+  a.check(std::ranges::is_sorted(spec.velocities), "velocities", "must ascend: slow starts first");
+}
+
+template <class Archive>
+void describe_sweep(Archive& a, SweepSpec& spec) {
+  a.value("seeds", spec.seeds, between(1, 1e6));
+  a.sections("axis", spec.axes);
+  a.section("boundary", spec.boundary);
+  a.check(!spec.axes.empty() || spec.boundary, "axis", "a sweep needs an axis or a boundary");
+}
+
+}  // namespace
+
+void describe(TomlReader& a, Axis& axis) { describe_axis(a, axis); }
+void describe(TomlWriter& a, Axis& axis) { describe_axis(a, axis); }
+void describe(TomlReader& a, BoundarySpec& spec) { describe_boundary(a, spec); }
+void describe(TomlWriter& a, BoundarySpec& spec) { describe_boundary(a, spec); }
+void describe(TomlReader& a, SweepSpec& spec) { describe_sweep(a, spec); }
+void describe(TomlWriter& a, SweepSpec& spec) { describe_sweep(a, spec); }
+
+std::vector<double> Axis::points(bool quick) const {
+  if (!values.empty()) return values;
+  const auto n = quick ? quick_count.value_or(count) : count;
+  std::vector<double> points;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(n - 1);
+    points.push_back(i == n - 1 ? to : from + part * (to - from));
+  }
+  return points;
+}
+
+std::string Axis::setting(double value) const {
+  return unit.empty() ? fmt::format("{}={}", key, value) : fmt::format("{}=\"{} {}\"", key, value, unit);
+}
+
+}  // namespace chute::sweep
