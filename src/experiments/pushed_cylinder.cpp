@@ -43,7 +43,7 @@ class Friction {
   void settle(double v, double way, double normal_force) { act(memory_, v, way, normal_force); }
 
  private:
-  using Memory = std::variant<laws::SlipMemory<1, 1, 0>, laws::SlipMemory<1, 2, 3>>;
+  using Memory = std::variant<laws::SlipMemory<1, 1, 0>, laws::SlipMemory<1, 1, 1>, laws::SlipMemory<1, 2, 3>>;
   laws::Shear law_;
   Memory memory_;
 
