@@ -21,6 +21,10 @@ Csv::Csv(std::vector<std::string> comments, std::vector<std::string_view> column
 void Csv::row(std::initializer_list<Cell> cells) { row({}, cells); }
 
 void Csv::row(std::initializer_list<std::string_view> texts, std::initializer_list<Cell> cells) {
+  row(std::span(texts.begin(), texts.size()), std::span(cells.begin(), cells.size()));
+}
+
+void Csv::row(std::span<const std::string_view> texts, std::span<const Cell> cells) {
   assert(texts.size() + cells.size() == columns_);
   const char* comma = "";
   for (const auto text : texts) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ class Csv {
   void row(std::initializer_list<Cell> cells);
   /// First cells text, the others numbers; texts must not hold commas or quotes.
   void row(std::initializer_list<std::string_view> texts, std::initializer_list<Cell> cells);
+  void row(std::span<const std::string_view> texts, std::span<const Cell> cells);
   const std::string& text() const { return text_; }
 
  private:

@@ -150,15 +150,44 @@ static void describe(Archive& a, ImpactSpec& impacts) {
 }
 
 template <class Archive>
+static void describe(Archive& a, FieldSpec& fields) {
+  a.number_or_word("from", fields.from, "steady", non_negative);
+  a.value("width", fields.width, non_negative);
+  a.value("every", fields.every, positive);
+}
+
+template <class Archive>
+static void describe(Archive& a, ImpactHistogramSpec& histograms) {
+  a.number_or_word("from", histograms.from, "steady", non_negative);
+  a.value("angles", histograms.angles, between(1, 10000));
+  a.value("velocities", histograms.velocities, between(1, 10000));
+  a.value("fastest", histograms.fastest, non_negative);
+}
+
+template <class Archive>
 static void describe(Archive& a, OutputSpec& output) {
   a.section("frames", output.frames);
   a.section("series", output.series);
   a.section("profiles", output.profiles);
+  a.section("fields", output.fields);
   a.section("impacts", output.impacts);
+  a.section("impact_histograms", output.impact_histograms);
   a.value("contacts", output.contacts);
   a.value("checkpoint", output.checkpoint, positive);
   a.check(!output.contacts || output.frames, "contacts",
           "the contact network is written beside frames; ask for frames = { every = … }");
+}
+
+/// What lengths, times between samples and velocities of outputs are if they are not given.
+static void fill_defaults(OutputSpec& output, double length, double between_samples, double velocity) {
+  const auto fill = [&](auto& spec, double& size) {
+    if (size == 0) size = length;
+    if (!spec.every) spec.every = between_samples;
+  };
+  if (output.profiles) fill(*output.profiles, output.profiles->bin);
+  if (output.fields) fill(*output.fields, output.fields->width);
+  if (output.impact_histograms && output.impact_histograms->fastest == 0)
+    output.impact_histograms->fastest = 2 * (velocity > 0 ? velocity : 1);
 }
 
 struct Run {
@@ -198,11 +227,7 @@ static void describe(Archive& a, Scene& scene) {
     scene.output.series.every = scene.duration / 400;
     scene.output.checkpoint = scene.duration / 10;
     a.section("output", scene.output);
-    if (scene.output.profiles) {
-      if (scene.output.profiles->bin == 0) scene.output.profiles->bin = d;
-      auto& every = scene.output.profiles->every;
-      if (!every) every = g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4;
-    }
+    fill_defaults(scene.output, d, g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4, std::sqrt(g * d));
   } else {
     a.section("output", scene.output);
   }
