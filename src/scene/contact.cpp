@@ -1,5 +1,7 @@
 #include "scene/contact.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -120,10 +122,17 @@ void describe(TomlWriter& a, ContactSpec& contact) { describe_contact(a, contact
 void check_contact_time(const Scene& scene, const TomlReader& reader) {
   const auto pair = scene.reference_pair();
   const auto impact = laws::normal_impact(scene.contact.laws(pair), impact_velocity(scene.contact), pair);
-  if (impact.restitution > 0 && std::isfinite(impact.contact_time)) return;
-  reader.fail("contact", depends_on_velocity(scene.contact.normal)
-                             ? "the damping is too strong: grains that meet at_velocity would never part"
-                             : "the damping is over-critical: grains would stick together and never part");
+  if (!(impact.restitution > 0 && std::isfinite(impact.contact_time)))
+    reader.fail("contact", depends_on_velocity(scene.contact.normal)
+                               ? "the damping is too strong: grains that meet at_velocity would never part"
+                               : "the damping is over-critical: grains would stick together and never part");
+  // 2^53 is where times of steps would no longer be told apart; no machine gets there.
+  constexpr double most = 1e15;
+  const double step = scene.engine.time_step.value_or(impact.contact_time / scene.engine.steps_per_contact);
+  if (scene.duration / step > most)
+    reader.fail("run.duration",
+                fmt::format("{:.6g} takes {:.2g} steps of {:.3g}, more than {:.0e} that can be counted",
+                            scene.duration, scene.duration / step, step, most));
 }
 
 bool has_hertz_spring(const NormalSpec& n) {

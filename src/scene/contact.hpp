@@ -14,7 +14,8 @@ bool has_hertz_spring(const NormalSpec& normal);
 /// The impact velocity that contact times and restitutions are stated for. 1 where they do not depend on it.
 double impact_velocity(const ContactSpec& contact);
 
-/// Refuses over-damped contacts: they never end, so they have no contact time and no restitution.
+/// Refuses over-damped contacts: they never end, so they have no contact time and no restitution. And runs of more
+/// steps than can be counted.
 void check_contact_time(const Scene& scene, const TomlReader& reader);
 
 }  // namespace chute::scene
