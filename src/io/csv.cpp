@@ -18,9 +18,9 @@ Csv::Csv(std::vector<std::string> comments, std::vector<std::string_view> column
   text_ += fmt::format("{}\n", fmt::join(columns, ","));
 }
 
-void Csv::row(std::span<const Cell> cells) { row({}, cells); }
+void Csv::row(std::span<const Cell> cells) { row(std::span<const std::string_view>(), cells); }
 
-void Csv::row(std::initializer_list<std::string_view> texts, std::span<const Cell> cells) {
+void Csv::row(std::span<const std::string_view> texts, std::span<const Cell> cells) {
   assert(texts.size() + cells.size() == columns_);
   const char* comma = "";
   for (const auto text : texts) {

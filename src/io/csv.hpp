@@ -16,7 +16,10 @@ class Csv {
   void row(std::span<const Cell> cells);
   void row(std::initializer_list<Cell> cells) { row(std::span(cells.begin(), cells.size())); }
   /// First cells text, the others numbers; texts must not hold commas or quotes.
-  void row(std::initializer_list<std::string_view> texts, std::span<const Cell> cells);
+  void row(std::span<const std::string_view> texts, std::span<const Cell> cells);
+  void row(std::initializer_list<std::string_view> texts, std::span<const Cell> cells) {
+    row(std::span(texts.begin(), texts.size()), cells);
+  }
   void row(std::initializer_list<std::string_view> texts, std::initializer_list<Cell> cells) {
     row(texts, std::span(cells.begin(), cells.size()));
   }

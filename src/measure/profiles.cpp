@@ -1,7 +1,5 @@
 #include "measure/profiles.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace chute::measure {
@@ -14,40 +12,31 @@ double area_below(double y, double R) {
   return R * R * (std::asin(y / R) + std::numbers::pi / 2) + y * std::sqrt(R * R - y * y);
 }
 
-/// Standard error of a mean from the scatter of its values over blocks; none from a single block.
-std::optional<double> block_error(const std::vector<double>& values) {
-  if (values.size() < 2) return {};
-  const auto n = static_cast<double>(values.size());
-  double mean = 0, square = 0;
-  for (double v : values) mean += v / n;
-  for (double v : values) square += (v - mean) * (v - mean);
-  return std::sqrt(square / (n - 1) / n);
-}
-
 }  // namespace
 
-Profiles::Profiles(double length, double bin, double from, double until, std::size_t blocks)
-    : length_(length), bin_(bin), from_(from), until_(until), samples_(blocks), sums_(blocks) {}
+Profiles::Profiles(double length, double bin, const Window& window)
+    : length_(length), bin_(bin), blocks_(window) {}
 
-void Profiles::sample(const GrainsView& grains) {
-  const double part = until_ > from_ ? (grains.time - from_) / (until_ - from_) : 0;  // 0/0 is no block
-  const auto blocks = static_cast<double>(samples_.size());
-  const auto block = static_cast<std::size_t>(std::clamp(part * blocks, 0.0, blocks - 1));
-  auto& bins = sums_[block];
-  ++samples_[block];
+Profiles::Sums& Profiles::bin_at(std::vector<Sums>& bins, std::int64_t b) const {
+  const auto index = static_cast<std::size_t>(b);
+  if (index >= bins.size()) bins.resize(index + 1);
+  return bins[index];
+}
+
+void Profiles::sample(const GrainsView& grains, std::span<const ContactRecord> contacts) {
+  auto& bins = blocks_.sample(grains.time);
   for (std::size_t i = 0; i < grains.moving; ++i) {
     const double h = grains.position[1][i], R = grains.radius[i];
     const auto top = static_cast<std::int64_t>(std::floor((h + R) / bin_));
     if (top < 0) continue;
-    if (static_cast<std::size_t>(top) >= bins.size()) bins.resize(static_cast<std::size_t>(top) + 1);
     const auto bottom = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor((h - R) / bin_)));
-    for (auto b = bottom; b <= top; ++b) {
+    for (auto b = top; b >= bottom; --b) {
       const double edge = static_cast<double>(b) * bin_ - h;
-      bins[static_cast<std::size_t>(b)].exact += area_below(edge + bin_, R) - area_below(edge, R);
+      bin_at(bins, b).exact += area_below(edge + bin_, R) - area_below(edge, R);
     }
     const auto centre = static_cast<std::int64_t>(std::floor(h / bin_));
     if (centre < 0) continue;
-    Sums& s = bins[static_cast<std::size_t>(centre)];
+    Sums& s = bin_at(bins, centre);
     const double vx = grains.velocity[0][i], vy = grains.velocity[1][i];
     s.count += 1;
     s.area += std::numbers::pi * R * R;
@@ -56,77 +45,71 @@ void Profiles::sample(const GrainsView& grains) {
     s.v_x2 += vx * vx;
     s.v_y2 += vy * vy;
     s.omega -= grains.spin[0][i];
+    s.layer.add_grain(grains.mass[i], vx, vy);
   }
+  for (const auto& contact : contacts) add_contact(bins, contact, grains);
 }
 
-/// What the sums of some samples say about a bin of the given area.
-struct Profiles::Means {
-  double eta, exact, v_x, v_y, sigma_x, sigma_y, omega;
-
-  Means(const Sums& s, double samples, double bin_area)
-      : eta(s.area / (samples * bin_area)),
-        exact(s.exact / (samples * bin_area)),
-        v_x(s.v_x / s.count),
-        v_y(s.v_y / s.count),
-        sigma_x(std::sqrt(std::max(0.0, s.v_x2 / s.count - v_x * v_x))),
-        sigma_y(std::sqrt(std::max(0.0, s.v_y2 / s.count - v_y * v_y))),
-        omega(s.omega / s.count) {}
-};
-
-/// The blocks that count, those with samples that begin at `start` or later.
-std::vector<std::size_t> Profiles::blocks_from(double start) const {
-  std::vector<std::size_t> counting;
-  const double width = (until_ - from_) / static_cast<double>(samples_.size());
-  for (std::size_t block = samples_.size(); block-- > 0;) {
-    const bool late = from_ + static_cast<double>(block) * width >= start - 1e-9 * width;
-    if (samples_[block] > 0 && (late || counting.empty())) counting.insert(counting.begin(), block);
+void Profiles::add_contact(std::vector<Sums>& bins, const ContactRecord& contact,
+                           const GrainsView& grains) const {
+  for (const auto id : {contact.i, contact.j}) {
+    const auto grain = static_cast<std::size_t>(id);
+    if (grain >= grains.moving || grains.position[1][grain] < 0) continue;
+    bin_at(bins, static_cast<std::int64_t>(std::floor(grains.position[1][grain] / bin_))).touches += 1;
   }
-  return counting;
+  const Branch branch = branch_of(contact, grains);
+  const double low = std::min(branch.h_i, branch.h_i + branch.way[1]), high = low + std::abs(branch.way[1]);
+  const auto first = static_cast<std::int64_t>(std::floor(low / bin_)),
+             last = static_cast<std::int64_t>(std::floor(high / bin_));
+  for (auto b = std::max<std::int64_t>(0, first); b <= last; ++b) {
+    const double edge = static_cast<double>(b) * bin_;
+    const double inside = std::min(high, edge + bin_) - std::max(low, edge);
+    const auto stress = branch.stress(high > low ? inside / (high - low) : 1);
+    auto& sums = bin_at(bins, b).layer.contact;
+    for (std::size_t k = 0; k < 3; ++k) sums[k] += stress[k];
+  }
 }
 
 std::vector<ProfileBin> Profiles::result(double start) const {
-  constexpr std::size_t stretches = 10;
-  const auto counting = blocks_from(start);
-  std::size_t highest = 0;
-  for (const auto block : counting) highest = std::max(highest, sums_[block].size());
+  const auto stretches = blocks_.stretches(start);
   std::vector<ProfileBin> profile;
-  for (std::size_t b = 0; b < highest; ++b) {
-    Sums total, stretch;
-    double samples = 0, stretch_samples = 0;
-    std::vector<Means> blocks_means;
-    for (std::size_t k = 0; k < counting.size(); ++k) {
-      const auto& bins = sums_[counting[k]];
-      if (b < bins.size()) stretch += bins[b];
-      stretch_samples += static_cast<double>(samples_[counting[k]]);
-      // With many blocks, several make a stretch.
-      if (counting.size() > stretches && k + 1 < counting.size() &&
-          (k + 1) * stretches / counting.size() == k * stretches / counting.size())
-        continue;
-      blocks_means.emplace_back(stretch, stretch_samples, length_ * bin_);
-      total += stretch;
-      samples += stretch_samples;
-      stretch = {};
-      stretch_samples = 0;
-    }
-    // The mean is that of the whole window, so that σ counts slow changes of the flow too; stretches only
-    // give the error.
-    const Means mean(total, samples, length_ * bin_);
-    const auto estimate = [&](double Means::*member) {
-      std::vector<double> values;
-      for (const auto& m : blocks_means)
-        if (std::isfinite(m.*member)) values.push_back(m.*member);
-      return Estimate{mean.*member, block_error(values)};
+  if (stretches.empty()) return profile;
+  const double area = length_ * bin_;
+  for (std::size_t b = 0; b < stretches[0].bins.size(); ++b) {
+    const auto estimate = [&](auto&& mean_of) { return estimate_bin<Sums>(stretches, b, mean_of); };
+    const auto per_area = [&](double Sums::*sum) {
+      return estimate([&](const Sums& s, double samples) { return s.*sum / (samples * area); });
     };
-    profile.push_back({(static_cast<double>(b) + 0.5) * bin_,
-                       total.count / samples,
-                       estimate(&Means::eta),
-                       estimate(&Means::exact),
-                       estimate(&Means::v_x),
-                       estimate(&Means::v_y),
-                       estimate(&Means::sigma_x),
-                       estimate(&Means::sigma_y),
-                       estimate(&Means::omega),
-                       {NAN, {}}});
+    const auto per_grain = [&](double Sums::*sum) {
+      return estimate([&](const Sums& s, double) { return s.*sum / s.count; });
+    };
+    const auto fluctuation = [&](double Sums::*square, double Sums::*sum) {
+      return estimate([&](const Sums& s, double) {
+        const double mean = s.*sum / s.count;
+        return std::sqrt(std::max(0.0, s.*square / s.count - mean * mean));
+      });
+    };
+    const auto kinetic = [&](std::size_t k) {
+      return estimate([&](const Sums& s, double samples) { return s.layer.kinetic()[k] / (samples * area); });
+    };
+    const auto contact = [&](std::size_t k) {
+      return estimate([&](const Sums& s, double samples) { return s.layer.contact[k] / (samples * area); });
+    };
+    ProfileBin bin{};
+    bin.h = (static_cast<double>(b) + 0.5) * bin_;
+    bin.grains = estimate([](const Sums& s, double samples) { return s.count / samples; }).mean;
+    bin.eta = per_area(&Sums::area);
+    bin.eta_exact = per_area(&Sums::exact);
+    bin.v_x = per_grain(&Sums::v_x);
+    bin.v_y = per_grain(&Sums::v_y);
+    bin.sigma_x = fluctuation(&Sums::v_x2, &Sums::v_x);
+    bin.sigma_y = fluctuation(&Sums::v_y2, &Sums::v_y);
+    bin.omega = per_grain(&Sums::omega);
+    bin.half_shear = {NAN, {}};
+    bin.kinetic_xx = kinetic(0), bin.kinetic_xy = kinetic(1), bin.kinetic_yy = kinetic(2);
+    bin.contact_xx = contact(0), bin.contact_xy = contact(1), bin.contact_yy = contact(2);
+    bin.coordination = per_grain(&Sums::touches);
+    profile.push_back(bin);
   }
   for (std::size_t b = 1; b + 1 < profile.size(); ++b) {
     const auto &below = profile[b - 1].v_x, &above = profile[b + 1].v_x;

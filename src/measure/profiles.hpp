@@ -1,10 +1,8 @@
 #pragma once
-#include <cstdint>
-#include <optional>
-#include <vector>
+#include <span>
 
-#include "core/grains.hpp"
-#include "measure/estimate.hpp"
+#include "measure/blocks.hpp"
+#include "measure/layer_sums.hpp"
 
 namespace chute::measure {
 
@@ -18,47 +16,50 @@ struct ProfileBin {
   Estimate sigma_x, sigma_y;  ///< √(⟨v²⟩ − ⟨v⟩²)
   Estimate omega;             ///< mean spin, positive when rolling downhill
   Estimate half_shear;  ///< ½ ∂v_x/∂h from the bins above and below; what ω is in simple shear (thesis 5.2.2)
+  /// Stress, positive in compression: carried by velocities that fluctuate about the bin's mean, and by
+  /// contacts (each where the line between the centres lies).
+  Estimate kinetic_xx, kinetic_xy, kinetic_yy, contact_xx, contact_xy, contact_yy;
+  Estimate coordination;  ///< contacts of a grain whose centre lies in the bin
 };
 
 /// Time averages over horizontal layers of a 2D flow. Errors are standard errors over ten stretches of the
 /// averaging window, so that they count correlated samples as what they are.
 class Profiles {
  public:
-  /// `length` of the line; layers are `bin` high. Samples lie in [from, until], which is cut into `blocks`:
-  /// that is how finely `result` can choose what counts.
-  Profiles(double length, double bin, double from, double until, std::size_t blocks = 10);
+  /// `length` of the line; layers are `bin` high; samples are taken within the window.
+  Profiles(double length, double bin, const Window& window);
 
-  void sample(const GrainsView& grains);
+  void sample(const GrainsView& grains, std::span<const ContactRecord> contacts);
 
-  /// Bins from the bed up to the highest that ever held a grain. Only blocks that begin at `start` or later
-  /// count, and at least the last one. Empty if nothing was sampled.
+  /// Bins from the bed up to the highest that ever held a grain. Only blocks of the window that begin at
+  /// `start` or later count, and at least the last one. Empty if nothing was sampled.
   std::vector<ProfileBin> result(double start) const;
-  std::vector<ProfileBin> result() const { return result(from_); }
 
   template <class Archive>
   void serialize(Archive& a) {
-    a(samples_, sums_);
+    a(blocks_);
   }
 
  private:
   struct Sums {
-    double count = 0, area = 0, exact = 0, v_x = 0, v_y = 0, v_x2 = 0, v_y2 = 0, omega = 0;
+    double count = 0, area = 0, exact = 0, v_x = 0, v_y = 0, v_x2 = 0, v_y2 = 0, omega = 0, touches = 0;
+    LayerSums layer;
     Sums& operator+=(const Sums& o) {
-      count += o.count, area += o.area, exact += o.exact, omega += o.omega;
+      count += o.count, area += o.area, exact += o.exact, omega += o.omega, touches += o.touches;
       v_x += o.v_x, v_y += o.v_y, v_x2 += o.v_x2, v_y2 += o.v_y2;
+      layer += o.layer;
       return *this;
     }
     template <class Archive>
     void serialize(Archive& a) {
-      a(count, area, exact, v_x, v_y, v_x2, v_y2, omega);
+      a(count, area, exact, v_x, v_y, v_x2, v_y2, omega, touches, layer);
     }
   };
-  struct Means;
-  double length_, bin_, from_, until_;
-  std::vector<std::int64_t> samples_;
-  std::vector<std::vector<Sums>> sums_;  // [block][bin]
+  double length_, bin_;
+  Blocks<Sums> blocks_;
 
-  std::vector<std::size_t> blocks_from(double start) const;
+  Sums& bin_at(std::vector<Sums>& bins, std::int64_t b) const;
+  void add_contact(std::vector<Sums>& bins, const ContactRecord& contact, const GrainsView& grains) const;
 };
 
 }  // namespace chute::measure

@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
-#include <cereal/archives/portable_binary.hpp>
-#include <cereal/types/array.hpp>
-#include <cereal/types/vector.hpp>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,13 +12,9 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "io/checkpoint_file.hpp"
-#include "io/csv.hpp"
-#include "io/vtk_files.hpp"
-#include "measure/profiles.hpp"
-#include "measure/series.hpp"
 #include "run/engine_factory.hpp"
 #include "run/flow.hpp"
-#include "run/schedule.hpp"
+#include "run/observers.hpp"
 #include "run/version.hpp"
 
 namespace chute::run {
@@ -29,7 +22,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One run: engine, observers, and when each writes.
+RunContext context(const scene::Scene& scene, const Made& made, const RunDirectory& directory) {
+  const double theta = scene.incline.theta(), g = scene.incline.gravity;
+  io::RunFacts facts;
+  facts.units = scene.units == scene::Units::si ? "SI" : "reduced";
+  facts.domain = {made.domain.lower[0], made.domain.lower[0] + made.domain.length[0]};
+  facts.gravity = {g * std::sin(theta), -g * std::cos(theta), 0};
+  return {scene, directory, facts, made.engine->time_step(), made.domain.length[0]};
+}
+
+/// One run: engine, observers, checkpoints.
 class Run {
  public:
   Run(const scene::Scene& scene, const RunOptions& options)
@@ -38,28 +40,11 @@ class Run {
         resolved_(scene::to_toml(scene)),
         made_(make_engine(scene)),  // may refuse the scene: before anything is written
         directory_(options.directory, options.existing),
+        context_(context(scene, made_, directory_)),
+        observers_(context_),
         dt_(made_.engine->time_step()),
-        last_step_(std::max<std::int64_t>(1, std::llround(scene.duration / dt_))) {
-    const auto& out = scene.output;
-    facts_.units = scene.units == scene::Units::si ? "SI" : "reduced";
-    facts_.domain = {made_.domain.lower[0], made_.domain.lower[0] + made_.domain.length[0]};
-    facts_.gravity = {scene.incline.gravity * std::sin(scene.incline.theta()),
-                      -scene.incline.gravity * std::cos(scene.incline.theta()), 0};
-    series_due_ = Schedule(out.series.from, out.series.every, dt_);
-    checkpoint_due_ = Schedule(out.checkpoint, out.checkpoint, dt_);
-    if (out.frames) frames_due_ = Schedule(out.frames->from, out.frames->every, dt_);
-    if (out.profiles) {
-      const double from = out.profiles->from.value_or(0);
-      profiles_due_ = Schedule(from, *out.profiles->every, dt_);
-      const std::size_t blocks = out.profiles->from ? 10 : 64;
-      const auto add = [&](const char* file, double bin) {
-        profiles_.push_back(
-            {file, measure::Profiles(made_.domain.length[0], bin, from, scene.duration, blocks)});
-      };
-      add("profiles.csv", out.profiles->bin);
-      if (out.profiles->fine) add("profiles_fine.csv", *out.profiles->fine);
-    }
-  }
+        last_step_(std::max<std::int64_t>(1, std::llround(scene.duration / dt_))),
+        checkpoint_due_(scene.output.checkpoint, scene.output.checkpoint, dt_) {}
 
   RunResult go() {
     const auto begin = Clock::now();
@@ -68,7 +53,7 @@ class Run {
     bool wanted = true;
     while (engine().step() < last_step_ && wanted) {
       advance();
-      observe();
+      observers_.look(engine());
       if (checkpoint_due_.index_at(engine().step()) >= 0) save();
       wanted = report();
     }
@@ -85,18 +70,11 @@ class Run {
   std::string resolved_;
   Made made_;
   RunDirectory directory_;
+  RunContext context_;
+  Observers observers_;
   double dt_;
   std::int64_t last_step_;
-  io::RunFacts facts_;
-  Schedule series_due_, frames_due_, profiles_due_, checkpoint_due_;
-  std::vector<measure::SeriesRow> series_;
-  struct ProfileFile {
-    const char* name;
-    measure::Profiles profiles;
-  };
-  std::vector<ProfileFile> profiles_;
-  std::vector<Impact> impacts_;
-  std::vector<double> frame_times_;
+  Schedule checkpoint_due_;
   std::int64_t steps_per_report_ = 1000;
   Clock::time_point reported_ = Clock::now();
   std::string started_ = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
@@ -106,9 +84,8 @@ class Run {
   /// To the next step at which somebody looks.
   void advance() {
     const auto from = engine().step();
-    const auto next = std::min({series_due_.after(from), frames_due_.after(from), profiles_due_.after(from),
-                                impacts_from_after(from), checkpoint_due_.after(from),
-                                from + steps_per_report_, last_step_});
+    const auto next = std::min(
+        {observers_.next_after(from), checkpoint_due_.after(from), from + steps_per_report_, last_step_});
     const auto before = Clock::now();
     try {
       engine().advance_to(next);
@@ -123,115 +100,25 @@ class Run {
     if (directory_.resumes()) {
       std::istringstream state(io::read_checkpoint(directory_.file("checkpoint"), resolved_));
       engine().restore(state);
-      cereal::PortableBinaryInputArchive archive(state);
-      transfer(archive);
-      engine().collect_impacts(collecting());
+      observers_.load(state);
+      observers_.prepare(engine());
       return;
     }
     write_atomically(directory_.file("scene.toml"), resolved_);
     write_run_json("running");
-    engine().collect_impacts(collecting());
-    observe();
+    observers_.prepare(engine());
+    observers_.look(engine());
     save();  // a run that leaves physics right away leaves a checkpoint too
-  }
-
-  template <class Archive>
-  void transfer(Archive& archive) {
-    archive(series_, impacts_, frame_times_);
-    for (auto& file : profiles_) archive(file.profiles);
-  }
-
-  /// Stepping is cut where impacts begin to count, so that none is collected before.
-  std::int64_t impacts_from_after(std::int64_t step) const {
-    const auto& spec = scene_.output.impacts;
-    const auto from = spec ? std::llround(spec->from / dt_) : 0;
-    return spec && from > step ? from : std::numeric_limits<std::int64_t>::max();
-  }
-  bool collecting() {
-    return scene_.output.impacts && engine().step() >= std::llround(scene_.output.impacts->from / dt_);
-  }
-
-  void observe() {
-    const auto step = engine().step();
-    if (series_due_.index_at(step) >= 0) series_.push_back(measure::observe_series(engine()));
-    if (profiles_due_.index_at(step) >= 0)
-      for (auto& file : profiles_) file.profiles.sample(engine().grains());
-    if (const auto k = frames_due_.index_at(step); k >= 0) write_frame(k);
-    if (collecting()) {
-      engine().collect_impacts(true);
-      const auto fresh = engine().take_impacts();
-      impacts_.insert(impacts_.end(), fresh.begin(), fresh.end());
-    }
-  }
-
-  void write_frame(std::int64_t k) {
-    const auto name = frame_name("frames", k);
-    std::filesystem::create_directories(directory_.file("frames"));
-    write_atomically(directory_.file(name), io::grains_vtp(engine().grains(), facts_));
-    if (scene_.output.contacts) {
-      std::filesystem::create_directories(directory_.file("contacts"));
-      const auto contacts = engine().contacts();
-      write_atomically(directory_.file(frame_name("contacts", k)),
-                       io::contacts_vtp(engine().grains(), contacts, facts_));
-    }
-    frame_times_.push_back(engine().time());
-  }
-
-  static std::string frame_name(const char* folder, std::int64_t k) {
-    return fmt::format("{}/{:06}.vtp", folder, k);
   }
 
   /// Everything on disk as of now; the checkpoint last, so that it never promises files that are not there.
   void save() {
-    write_series();
-    for (const auto& file : profiles_) write_profiles(file);
-    if (scene_.output.impacts)
-      write_atomically(directory_.file("impacts.vtp"), io::impacts_vtp(impacts_, facts_));
-    if (scene_.output.frames) {
-      std::vector<std::string> names;
-      for (std::size_t k = 0; k < frame_times_.size(); ++k)
-        names.push_back(frame_name("frames", static_cast<std::int64_t>(k)));
-      write_atomically(directory_.file("frames.pvd"), io::pvd(frame_times_, names));
-    }
+    observers_.write(engine().grains());
     io::write_checkpoint(directory_.file("checkpoint"), resolved_, [&](std::ostream& out) {
       engine().save(out);
-      cereal::PortableBinaryOutputArchive archive(out);
-      transfer(archive);
+      observers_.save(out);
     });
   }
-
-  std::vector<std::string> comments(std::string what) const {
-    return {std::move(what), fmt::format("{}; units: {}; seed {}; chute {} ({})", scene_.title, facts_.units,
-                                         scene_.seed, version, commit)};
-  }
-
-  void write_series() {
-    io::Csv csv(comments("means over the moving grains, and where the energy is and went (see README)"),
-                {"time", "x", "v_x", "v_y", "omega", "contacts", "translation", "rotation", "elastic",
-                 "gravity_work", "normal_loss", "shear_loss", "residual"});
-    for (const auto& r : series_)
-      csv.row({r.time, r.x, r.v_x, r.v_y, r.omega, static_cast<double>(r.contacts), r.energy.translation,
-               r.energy.rotation, r.energy.elastic, r.energy.gravity_work, r.energy.normal_loss,
-               r.energy.shear_loss, r.energy.residual()});
-    write_atomically(directory_.file("series.csv"), csv.text());
-  }
-
-  void write_profiles(const ProfileFile& file) {
-    io::Csv csv(
-        comments("time averages over layers at height h above the centres of the bed; errors from blocks "
-                 "of the time window"),
-        {"h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "v_x", "v_x_err", "v_y", "v_y_err",
-         "sigma_x", "sigma_x_err", "sigma_y", "sigma_y_err", "omega", "omega_err", "half_shear",
-         "half_shear_err"});
-    const auto& spec = *scene_.output.profiles;
-    for (const auto& b : spec.from ? file.profiles.result() : file.profiles.result(flow().from))
-      csv.row({b.h, b.grains, b.eta.mean, b.eta.error, b.eta_exact.mean, b.eta_exact.error, b.v_x.mean,
-               b.v_x.error, b.v_y.mean, b.v_y.error, b.sigma_x.mean, b.sigma_x.error, b.sigma_y.mean,
-               b.sigma_y.error, b.omega.mean, b.omega.error, b.half_shear.mean, b.half_shear.error});
-    write_atomically(directory_.file(file.name), csv.text());
-  }
-
-  measure::Flow flow() { return judge_run(series_, scene_, engine().grains()); }
 
   void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {
     utsname machine{};
@@ -251,7 +138,7 @@ class Run {
                                 {"time", engine().time()},
                                 {"end", state}};
     if (!why.empty()) json["why"] = why;
-    if (!series_.empty()) json["flow"] = to_json(flow());
+    if (observers_.saw_something()) json["flow"] = to_json(observers_.flow(engine().grains()));
     // a command line may hold any bytes
     write_atomically(directory_.file("run.json"),
                      json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");

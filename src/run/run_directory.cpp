@@ -11,9 +11,18 @@ namespace chute::run {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array own_names{"scene.toml",        "run.json",    "frames.pvd", "frames",
-                               "contacts",          "impacts.vtp", "series.csv", "profiles.csv",
-                               "profiles_fine.csv", "checkpoint"};
+constexpr std::array own_names{"scene.toml",
+                               "run.json",
+                               "frames.pvd",
+                               "frames",
+                               "contacts",
+                               "impacts.vtp",
+                               "series.csv",
+                               "profiles.csv",
+                               "profiles_fine.csv",
+                               "fields.csv",
+                               "impact_histograms.csv",
+                               "checkpoint"};
 
 bool is_run(const fs::path& path) { return fs::exists(path / "scene.toml") && fs::exists(path / "run.json"); }
 

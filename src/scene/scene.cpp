@@ -152,15 +152,44 @@ static void describe(Archive& a, ImpactSpec& impacts) {
 }
 
 template <class Archive>
+static void describe(Archive& a, FieldSpec& fields) {
+  a.number_or_word("from", fields.from, "steady", non_negative);
+  a.value("width", fields.width, non_negative);
+  a.value("every", fields.every, positive);
+}
+
+template <class Archive>
+static void describe(Archive& a, ImpactHistogramSpec& histograms) {
+  a.number_or_word("from", histograms.from, "steady", non_negative);
+  a.value("angles", histograms.angles, between(1, 10000));
+  a.value("velocities", histograms.velocities, between(1, 10000));
+  a.value("fastest", histograms.fastest, non_negative);
+}
+
+template <class Archive>
 static void describe(Archive& a, OutputSpec& output) {
   a.section("frames", output.frames);
   a.section("series", output.series);
   a.section("profiles", output.profiles);
+  a.section("fields", output.fields);
   a.section("impacts", output.impacts);
+  a.section("impact_histograms", output.impact_histograms);
   a.value("contacts", output.contacts);
   a.value("checkpoint", output.checkpoint, positive);
   a.check(!output.contacts || output.frames, "contacts",
           "the contact network is written beside frames; ask for frames = { every = … }");
+}
+
+/// What lengths, times between samples and velocities of outputs are if they are not given.
+static void fill_defaults(OutputSpec& output, double length, double between_samples, double velocity) {
+  const auto fill = [&](auto& spec, double& size) {
+    if (size == 0) size = length;
+    if (!spec.every) spec.every = between_samples;
+  };
+  if (output.profiles) fill(*output.profiles, output.profiles->bin);
+  if (output.fields) fill(*output.fields, output.fields->width);
+  if (output.impact_histograms && output.impact_histograms->fastest == 0)
+    output.impact_histograms->fastest = 2 * (velocity > 0 ? velocity : 1);
 }
 
 struct Run {
@@ -203,11 +232,7 @@ static void describe(Archive& a, Scene& scene) {
     scene.output.series.every = scene.duration / 400;
     scene.output.checkpoint = scene.duration / 10;
     a.section("output", scene.output);
-    if (scene.output.profiles) {
-      if (scene.output.profiles->bin == 0) scene.output.profiles->bin = d;
-      auto& every = scene.output.profiles->every;
-      if (!every) every = g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4;
-    }
+    fill_defaults(scene.output, d, g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4, std::sqrt(g * d));
   } else {
     a.section("output", scene.output);
   }
@@ -226,6 +251,18 @@ laws::Pair Scene::reference_pair() const {
   return interacting() ? laws::Pair(mean_mass() / 2, R / 2) : laws::Pair(mean_mass(), R * r / (R + r));
 }
 
+/// Refuses runs of more steps than can be counted.
+static void check_step_count(const Scene& scene, const TomlReader& reader) {
+  // 2^53 is where times of steps would no longer be told apart; no machine gets there.
+  constexpr double most = 1e15;
+  const double contact_time = reference_impact(scene.contact, scene.reference_pair()).contact_time;
+  const double step = scene.engine.time_step.value_or(contact_time / scene.engine.steps_per_contact);
+  if (scene.duration / step > most)
+    reader.fail("run.duration",
+                fmt::format("{:.6g} takes {:.2g} steps of {:.3g}, more than {:.0e} that can be counted",
+                            scene.duration, scene.duration / step, step, most));
+}
+
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings) {
   toml::table table = parse_toml(text, name);
   for (const auto& setting : settings) set_by_path(table, setting);
@@ -234,6 +271,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   describe(reader, scene);
   reader.finish();
   check_contact_time(scene.contact, scene.reference_pair(), reader);
+  check_step_count(scene, reader);
   if (const auto wrong = misfit(scene)) reader.fail(wrong->key, wrong->message);
   return scene;
 }

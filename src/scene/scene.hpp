@@ -93,14 +93,29 @@ struct ProfileSpec {
   std::optional<double> fine;   ///< height of the bins of a second profile, in profiles_fine.csv
   std::optional<double> every;  ///< time between samples; default 0.02 √(d/g)
 };
+/// Coarse-grained fields over the height.
+struct FieldSpec {
+  std::optional<double> from = 0;  ///< as in ProfileSpec
+  double width = 0;                ///< of the smoothing kernel; default one bed diameter
+  std::optional<double> every;     ///< as in ProfileSpec
+};
 struct ImpactSpec {
   double from = 0;
+};
+/// Statistics of impacts, gathered in the run.
+struct ImpactHistogramSpec {
+  std::optional<double> from = 0;  ///< as in ProfileSpec
+  std::int64_t angles = 90;        ///< bins of γ mod π
+  std::int64_t velocities = 100;   ///< bins of |v_n|
+  double fastest = 0;              ///< end of the last of them; default 2 √(gd)
 };
 struct OutputSpec {
   std::optional<Every> frames;
   Every series;  ///< default: 400 rows over the run
   std::optional<ProfileSpec> profiles;
+  std::optional<FieldSpec> fields;
   std::optional<ImpactSpec> impacts;
+  std::optional<ImpactHistogramSpec> impact_histograms;
   bool contacts = false;  ///< the contact network beside every frame
   double checkpoint = 0;  ///< time between checkpoints; default a tenth of the run
 };

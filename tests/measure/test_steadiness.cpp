@@ -63,7 +63,7 @@ TEST_CASE("correlated noise about one velocity is steady, and its error is hones
     INFO("correlation time " << correlation << ": " << steady << " steady, " << covered
                              << " within two errors, claimed over real error "
                              << std::sqrt(claimed / squares));
-    CHECK(steady >= 0.85 * runs);  // forty correlation times are not always enough to tell
+    CHECK(steady >= 0.85 * runs);     // forty correlation times are not always enough to tell
     CHECK(covered >= 0.85 * steady);  // 0.95 with the normal distribution; twelve stretches are few
     CHECK(std::sqrt(claimed / squares) > 0.8);
     CHECK(std::sqrt(claimed / squares) < 1.7);

@@ -4,6 +4,7 @@
 #include "folder.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
+#include "scene/start.hpp"
 
 using namespace chute;
 using namespace chute::test;
@@ -77,10 +78,26 @@ TEST_CASE("discs on a slope stop or flow, and averages may begin where the flow 
       if (cells[0] == "h")
         at = static_cast<std::size_t>(std::find(cells.begin(), cells.end(), wanted) - cells.begin());
       else
-        values.push_back(cells.size() > at && !cells[at].empty() ? std::stod(cells[at]) : -1);
+        values.push_back(cells.size() > at && !cells[at].empty() ? std::stod(cells[at]) : 0);
     }
     return values;
   };
+  // A steady flow is carried: the stress at the bed is the weight on it, and everywhere the shear stress over
+  // the pressure is tan θ.
+  double weight = 0;
+  const auto shear = column("flow", "contact_xy"), shear_moved = column("flow", "kinetic_xy");
+  const auto load = column("flow", "contact_yy"), load_moved = column("flow", "kinetic_yy");
+  {
+    const auto scene = scene::read_scene(folder / "flow" / "scene.toml");
+    const auto start = scene::make_start(scene);
+    for (std::size_t i = 0; i < start.grains.moving; ++i) weight += start.grains.mass[i];
+    weight *= std::cos(scene.incline.theta()) / start.domain.length[0];
+  }
+  CHECK(load[0] + load_moved[0] == Approx(weight).epsilon(0.1));
+  for (const std::size_t b : {0u, 1u, 2u})
+    CHECK(-(shear[b] + shear_moved[b]) / (load[b] + load_moved[b]) ==
+          Approx(std::tan(19 * 3.14159265 / 180)).epsilon(0.15));
+
   const auto eta = column("flow", "eta"), same = column("again", "eta");
   REQUIRE(eta.size() >= same.size());
   for (std::size_t b = 0; b < same.size(); ++b) CHECK(eta[b] == Approx(same[b]).epsilon(0.01).margin(1e-3));

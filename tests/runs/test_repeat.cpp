@@ -15,6 +15,7 @@ scene::Scene flow(std::vector<std::string> settings = {}) {
                   {"grains.count=60", "bed.count=12", "run.duration=12", "contact.normal.stiffness=1e5",
                    "contact.tangential.viscosity=150", "output.frames={every=2}", "output.series={every=0.5}",
                    "output.profiles={from=4, bin=1.0, every=0.1}", "output.impacts={from=4}",
+                   "output.fields={from=\"steady\", every=0.2}", "output.impact_histograms={from=3}",
                    "output.contacts=true", "output.checkpoint=1.5"});
   return scene::read_scene(CHUTE_SOURCE_DIR "/scenes/demo.toml", settings);
 }
@@ -41,11 +42,11 @@ TEST_CASE("a run writes every file that the scene asks for") {
   const auto files = tree(folder / "a");
   for (const char* name : {"scene.toml", "run.json", "frames.pvd", "frames/000000.vtp", "frames/000006.vtp",
                            "contacts/000000.vtp", "contacts/000006.vtp", "impacts.vtp", "series.csv",
-                           "profiles.csv", "checkpoint"}) {
+                           "profiles.csv", "fields.csv", "impact_histograms.csv", "checkpoint"}) {
     INFO(name);
     CHECK(files.count(name) == 1);
   }
-  CHECK(files.size() == 7 + 7 + 7);  // times 0, 2, … 12
+  CHECK(files.size() == 9 + 7 + 7);  // times 0, 2, … 12
   CHECK(files.at("run.json").find("\"end\": \"finished\"") != std::string::npos);
 }
 

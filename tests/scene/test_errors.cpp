@@ -50,6 +50,16 @@ TEST_CASE("a wrong type says what was written and what is wanted") {
         "scene.toml:29: output.frames: must be a table: [output.frames]");
 }
 
+TEST_CASE("a run of more steps than can be counted is refused") {
+  const auto said = set("run.duration=1e300");
+  INFO(said);
+  CHECK(said.find("run.duration: 1e+300 takes ") != said.npos);
+  CHECK(said.find("more than 1e+15") != said.npos);
+  CHECK(set("run.duration=1e9") == "accepted");
+  CHECK(refused(example, std::vector<std::string>{"engine.time_step=1e-7", "run.duration=1e9"})
+            .find("run.duration: ") != said.npos);
+}
+
 TEST_CASE("a number out of range says the range") {
   CHECK(refused("diameter = 1.0", "diameter = -1.0") ==
         "scene.toml:8: bed.diameter: -1 is not allowed, must be > 0");

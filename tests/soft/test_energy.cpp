@@ -62,6 +62,17 @@ TEST_CASE("what gravity puts in is stored or lost, and the residual falls with t
   }
 }
 
+TEST_CASE("the account still closes after a million steps") {
+  const double million = 1e6 * SmallChute::contact_time() / 50;
+  const auto usual = balance(50, million, soft::Scheme::gear5),
+             fine = balance(100, million, soft::Scheme::gear5);
+  INFO("residual over work: " << usual.residual / usual.gravity_work << ", "
+                              << fine.residual / fine.gravity_work);
+  CHECK(usual.gravity_work > 300);
+  CHECK(std::abs(usual.residual) < 1e-3 * usual.gravity_work);
+  CHECK(std::abs(fine.residual) < 0.5 * std::abs(usual.residual));
+}
+
 // Verlet's forces see the velocity of the half step before, at which sliding grains are faster: losses are
 // counted high in first order.
 TEST_CASE("Verlet closes the account in first order") {
