@@ -11,6 +11,7 @@ void add_info(CLI::App& app);
 void add_render(CLI::App& app);
 void add_figure(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_theory(CLI::App& app);
 
 /// The command line as it was given, for run.json and figure comments.
 const std::string& command_line();
