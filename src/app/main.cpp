@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   app::add_sweep(app);
   app::add_figure(app);
   app::add_compare(app);
+  app::add_theory(app);
 
   try {
     app.parse(argc, argv);

@@ -1,9 +1,12 @@
 #include "figures/data_recipe.hpp"
 
+#include <fmt/format.h>
+
 namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
-constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv, "profile"sv, "series"sv};
+constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv,
+                                   "peak"sv,      "profile"sv,    "series"sv};
 }  // namespace
 
 static void describe(TomlReader& a, Curve& curve) {
@@ -26,8 +29,31 @@ static void describe(TomlReader& a, Curve& curve) {
   if (histogram || scatter) a.value("fold", curve.fold, non_negative), a.value("absolute", curve.absolute);
   if (scatter || curve.extract == Extract::return_map) a.value("most", curve.most, at_least(1));
   if (curve.extract == Extract::profile) a.value("fine", curve.fine);
+  if (curve.extract == Extract::peak) {
+    a.value("peak", curve.peak, between(0, 100));
+    a.value("bandwidth", curve.bandwidth, positive);
+    a.value("widest", curve.widest, positive);
+    a.required("vary", curve.vary);
+    a.required("values", curve.values);
+    a.check(!curve.values.empty(), "values", "must hold at least one value");
+  }
   a.check(curve.series.find_first_of(",\"\n") == std::string::npos, "series",
           "must not hold commas, quotes or line breaks");
+}
+
+/// A curve along which a key of the scene changes becomes one curve per value, under the same name.
+static std::vector<Curve> point_by_point(const std::vector<Curve>& curves) {
+  std::vector<Curve> points;
+  for (const auto& curve : curves) {
+    if (!curve.vary) points.push_back(curve);
+    for (const double value : curve.values) {
+      Curve point = curve;
+      point.at = value;
+      point.set.push_back(fmt::format("{}={}", *curve.vary, value));
+      points.push_back(std::move(point));
+    }
+  }
+  return points;
 }
 
 void describe(TomlReader& a, DataRecipe& recipe) {
@@ -47,6 +73,7 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.required("y", recipe.y);
   a.value("notes", recipe.notes);
   a.sections("curve", recipe.curves);
+  recipe.curves = point_by_point(recipe.curves);
   a.check(!recipe.curves.empty(), "curve", "a figure needs at least one [[data.curve]]");
   recipe.runs = !recipe.scene;
   for (const auto& curve : recipe.curves)

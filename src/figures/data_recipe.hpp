@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ enum class Extract {
   histogram,   ///< of one column of the impacts; density with integral 1, x = middle of the bin
   return_map,  ///< a column of the impacts against the same of the impact before, grain by grain
   scatter,     ///< one column of the impacts against another, one row per impact
+  peak,        ///< place (y) and width (y_err) of one peak of a column of the impacts, at `at` (x)
   profile,     ///< a column of profiles.csv (of profiles_fine.csv with `fine`) against h
   series       ///< a column of series.csv against time
 };
@@ -33,6 +35,12 @@ struct Curve {
   bool absolute = false;                     ///< histogram, scatter: the column's absolute value
   std::int64_t most = 20000;                 ///< return_map, scatter: no more dots than this (the last ones)
   bool fine = false;                         ///< profile: the fine bins
+  std::int64_t peak = 1;                     ///< peak: which, counted from 0, the one at the least values
+  double bandwidth = 4e-3;  ///< peak: of the density's kernel, in the column's unit (figures/peaks.hpp)
+  double widest = std::numeric_limits<double>::infinity();  ///< peak: a wider cluster is a continuum, no peak
+  std::optional<std::string> vary;  ///< a key of the scene that changes along the curve …
+  std::vector<double> values;       ///< … and what it is, point by point
+  double at = 0;                    ///< the value that this point of the curve has; not in the file
 };
 
 /// The data half of a figure recipe: [data] and [[data.curve]].

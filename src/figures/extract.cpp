@@ -9,6 +9,7 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "figures/peaks.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
 
@@ -97,11 +98,26 @@ std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> run
     const Impacts impacts(run);
     const auto &x = impacts.column(curve.against), &y = impacts.column(curve.column);
     for (std::size_t i = 0; i < x.size(); ++i)
-      rows.push_back(
-          {curve.panel, curve.series, folded(x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
+      if (std::isfinite(x[i]) && std::isfinite(y[i]))  // a grain's first impact knows no flight before it
+        rows.push_back(
+            {curve.panel, curve.series, folded(x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
   }
   keep_last(rows, curve.most);
   return rows;
+}
+
+/// One peak of the distribution over all runs; no row where it is not distinguishable.
+std::vector<FigureRow> peak(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<double> values;
+  for (const auto& run : runs) {
+    const Impacts impacts(run);
+    const auto& column = impacts.column(curve.column);
+    values.insert(values.end(), column.begin(), column.end());
+  }
+  const auto peaks = find_peaks(values, curve.bandwidth);
+  const auto wanted = static_cast<std::size_t>(curve.peak);
+  if (wanted >= peaks.size() || peaks[wanted].width > curve.widest) return {};
+  return {{curve.panel, curve.series, curve.at, peaks[wanted].position, {}, peaks[wanted].width}};
 }
 
 /// A column of a table against another, averaged over runs at equal x.
@@ -145,6 +161,8 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return return_map(curve, runs);
     case Extract::scatter:
       return scatter(curve, runs);
+    case Extract::peak:
+      return peak(curve, runs);
     case Extract::profile:
       return averaged(curve, runs, curve.fine ? "profiles_fine.csv" : "profiles.csv", "h");
     case Extract::series:

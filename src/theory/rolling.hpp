@@ -9,7 +9,7 @@ namespace chute::theory {
 /// The line and the ball. WorkError from every function below if Φ or r is not positive, ε or g is negative,
 /// or the ball falls through the gap (1 + ε > 1 + Φ).
 struct Line {
-  double size_ratio;      ///< Φ = R/r
+  double size_ratio = 1;  ///< Φ = R/r
   double gap = 0;         ///< ε: neighbouring beads are 2εr apart. Of a disordered line the mean, (4.52)
   double radius = 5e-3;   ///< r, of the beads
   double gravity = 9.81;  ///< g
