@@ -1,8 +1,6 @@
 #include "run/run.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
@@ -21,6 +19,7 @@
 #include "measure/series.hpp"
 #include "run/engine_factory.hpp"
 #include "run/flow.hpp"
+#include "run/record.hpp"
 #include "run/schedule.hpp"
 #include "run/version.hpp"
 
@@ -99,7 +98,7 @@ class Run {
   std::vector<double> frame_times_;
   std::int64_t steps_per_report_ = 1000;
   Clock::time_point reported_ = Clock::now();
-  std::string started_ = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+  std::string started_ = RunRecord::now();
 
   Engine& engine() { return *made_.engine; }
 
@@ -231,30 +230,22 @@ class Run {
     write_atomically(directory_.file(file.name), csv.text());
   }
 
-  measure::Flow flow() { return judge_run(series_, scene_, engine().grains()); }
+  measure::Flow judge() { return judge_run(series_, scene_, engine().grains()); }
 
   void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {
-    utsname machine{};
-    uname(&machine);
-    nlohmann::ordered_json json{{"program", "chute"},
-                                {"version", version},
-                                {"commit", commit},
-                                {"command", options_.command_line},
-                                {"seed", scene_.seed},
-                                {"threads", options_.threads},
-                                {"machine", fmt::format("{} {}", machine.sysname, machine.machine)},
-                                {"started", started_},
-                                {"written", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))},
-                                {"seconds", seconds},
-                                {"steps", engine().step()},
-                                {"time_step", dt_},
-                                {"time", engine().time()},
-                                {"end", state}};
-    if (!why.empty()) json["why"] = why;
-    if (!series_.empty()) json["flow"] = to_json(flow());
-    // a command line may hold any bytes
-    write_atomically(directory_.file("run.json"),
-                     json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    RunRecord record;
+    record.command = options_.command_line;
+    record.seed = scene_.seed;
+    record.threads = options_.threads;
+    record.started = started_;
+    record.seconds = seconds;
+    record.steps = engine().step();
+    record.time_step = dt_;
+    record.time = engine().time();
+    record.end = state;
+    record.why = why;
+    const auto flow = series_.empty() ? std::optional<measure::Flow>() : judge();
+    write_record(directory_.file("run.json"), record, flow);
   }
 
   /// Slices of about a tenth of a second, so that progress and interruption feel prompt.

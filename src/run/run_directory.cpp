@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array own_names{"scene.toml",        "run.json",    "frames.pvd", "frames",
                                "contacts",          "impacts.vtp", "series.csv", "profiles.csv",
-                               "profiles_fine.csv", "checkpoint"};
+                               "profiles_fine.csv", "result.csv",  "checkpoint"};
 
 bool is_run(const fs::path& path) { return fs::exists(path / "scene.toml") && fs::exists(path / "run.json"); }
 
