@@ -95,8 +95,10 @@ figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, cons
                                 const figures::FigureContext& context,
                                 const std::function<bool(double)>& progress) {
   if (recipe.data.table) return read_rows(file.parent_path() / *recipe.data.table);
-  if (recipe.data.compute) {
-    auto table = find_computation(*recipe.data.compute, file)(context);
+  if (recipe.data.compute || recipe.data.experiment) {
+    auto table = recipe.data.compute
+                     ? find_computation(*recipe.data.compute, file)(context)
+                     : experiments::make_table(*recipe.data.experiment, file, context, progress);
     table.comments.push_back(
         fmt::format("made by chute {} ({}){}", run::version, run::commit,
                     context.quick ? "; quick: a cheaper computation than the full figure's" : ""));

@@ -2,6 +2,7 @@
 
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
+#include "experiments/experiment.hpp"
 #include "run/facts.hpp"
 #include "scene/start.hpp"
 
@@ -9,10 +10,18 @@ namespace chute::app {
 namespace {
 
 void check(const std::string& file, const std::vector<std::string>& settings) {
-  const auto scene = scene::read_scene(file, settings);
-  scene::make_start(scene);  // says if the grains do not fit
-  fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, scene::to_toml(scene));
-  for (const auto& fact : run::facts(scene)) {
+  std::string resolved;
+  std::vector<run::Fact> facts;
+  if (experiments::is_experiment(file)) {
+    const auto experiment = experiments::read_experiment(file, settings);
+    resolved = to_toml(experiment), facts = experiments::facts(experiment);
+  } else {
+    const auto scene = scene::read_scene(file, settings);
+    scene::make_start(scene);  // says if the grains do not fit
+    resolved = to_toml(scene), facts = run::facts(scene);
+  }
+  fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, resolved);
+  for (const auto& fact : facts) {
     const auto value =
         fact.name == "cost" ? duration_text(fact.value) : fmt::format("{:.6g} {}", fact.value, fact.unit);
     fmt::print("# {:<16} {:<26} {}\n", fact.name, value, fact.meaning);

@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
+#include "experiments/perform.hpp"
 #include "run/run.hpp"
 
 namespace chute::app {
@@ -18,9 +19,19 @@ struct RunArguments {
   bool resume = false, force = false, quiet = false;
 };
 
+/// An experiment takes seconds at most: there is nothing to show or to resume, but the results to print.
+void experiment(const RunArguments& arguments, const run::RunOptions& options) {
+  const auto outcome =
+      experiments::run_experiment(experiments::read_experiment(arguments.scene, arguments.settings), options);
+  if (arguments.quiet) return;
+  for (const auto& result : outcome.results)
+    fmt::print("{:<14} {:<22} {}\n", result.name, fmt::format("{:.6g} {}", result.value, result.unit),
+               result.meaning);
+  fmt::print(stderr, "run: {} steps; files in {}\n", outcome.steps, options.directory.string());
+}
+
 void run(const RunArguments& arguments) {
   if (arguments.resume && arguments.force) throw InputError("--resume and --force exclude each other");
-  const auto scene = scene::read_scene(arguments.scene, arguments.settings);
   run::RunOptions options;
   options.directory = arguments.directory.empty()
                           ? std::filesystem::path("out") / std::filesystem::path(arguments.scene).stem()
@@ -30,6 +41,8 @@ void run(const RunArguments& arguments) {
                                        : run::Existing::refuse;
   options.threads = arguments.threads;
   options.command_line = command_line();
+  if (experiments::is_experiment(arguments.scene)) return experiment(arguments, options);
+  const auto scene = scene::read_scene(arguments.scene, arguments.settings);
   Progress progress("run", arguments.quiet);
   options.progress = [&](double part) {
     progress.show(part);

@@ -5,28 +5,16 @@
 #include <stdexcept>
 
 #include "common/error.hpp"
-#include "laws/collision.hpp"
 
 namespace chute::experiments {
 namespace {
 
 template <int D>
-laws::Collider<D> collider(const Ball<D>& ball) {
-  const double inverse = ball.fixed ? 0 : 1 / ball.mass;
-  return {ball.velocity, ball.spin, ball.radius, inverse, 2.5 * inverse / (ball.radius * ball.radius)};
-}
-
-template <int D>
-double reduced_mass(const Ball<D>& i, const Ball<D>& j) {
-  return j.fixed ? i.mass : i.mass * j.mass / (i.mass + j.mass);
-}
-
-template <int D>
 double energy(const Ball<D>& i, const Ball<D>& j) {
   const auto dv = j.velocity - i.velocity;
-  double sum = 0.5 * reduced_mass(i, j) * dot(dv, dv);
+  double sum = 0.5 * pair_of(i, j).m_eff * dot(dv, dv);
   for (const auto* b : {&i, &j})
-    if (!b->fixed) sum += 0.2 * b->mass * b->radius * b->radius * dot(b->spin, b->spin);
+    if (!b->fixed) sum += 0.5 * b->inertia() * dot(b->spin, b->spin);
   return sum;
 }
 
@@ -41,13 +29,6 @@ Vec<D> turned(const Vec<D>& along, const Vec<D>& n, const Vec<D>& n_after) {
     const double cosine = dot(n, n_after);
     return cosine * along + cross(axis, along) + (dot(axis, along) / (1 + cosine)) * axis;
   }
-}
-
-template <int D>
-void add(Grains<D>& grains, const Ball<D>& ball, const Vec<D>& place) {
-  grains.add(place, ball.radius, ball.mass, 0.4 * ball.mass * ball.radius * ball.radius, !ball.fixed);
-  for (int k = 0; k < D; ++k) grains.velocity[k].back() = ball.velocity[k];
-  for (int k = 0; k < turns<D>; ++k) grains.spin[k].back() = ball.spin[k];
 }
 
 template <int D>
@@ -66,41 +47,40 @@ Vec<D> direction(const Grains<D>& grains) {
 }  // namespace
 
 template <int D>
-ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
-  const auto& [law, i, j, n, steps, trace, scheme, origin] = impact;
+double BinaryImpact<D>::shortest_time() const {
   const Vec<D> dv = j.velocity - i.velocity;
-  const double v_n = dot(dv, n), reach = i.radius + j.radius;
+  const double passing = 2 * (i.radius + j.radius) * approach() / dot(dv, dv);
+  return std::min(laws::normal_impact(laws, approach(), pair()).contact_time, passing);
+}
+
+template <int D>
+ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
+  const auto& [law, i, j, n, steps, trace, scheme, origin, watch] = impact;
+  const double v_n = -impact.approach(), reach = i.radius + j.radius;
   if (!(v_n < 0)) throw std::invalid_argument("these grains do not approach");
 
   ImpactOutcome<D> outcome;
   outcome.v_n_before = v_n;
-  const auto slip = laws::surface_slip(n, collider(i), collider(j));
+  const auto slip = laws::surface_slip(n, i.collider(), j.collider());
   const double v_s = norm(slip);
   outcome.psi_before = v_s / -v_n;
   outcome.energy_before = energy(i, j);
 
-  // The time to pass through each other unhindered: the chord inside the contact is 2 (R_i + R_j) cos ϑ
-  // (2.16).
-  const double passing = 2 * reach * -v_n / dot(dv, dv);
-  const laws::Pair pair(reduced_mass(i, j), i.radius * j.radius / reach);
-  const double t_n = std::min(laws::normal_impact(law, -v_n, pair).contact_time, passing);
-  soft::SoftSetup<D> setup;
-  setup.laws = law;
+  auto setup = free_space<D>(law, impact.shortest_time() / steps, reach);
   setup.scheme = scheme;
-  setup.time_step = t_n / steps;
-  setup.skins = soft::usual_skins<D>(reach);
-  setup.deepest_overlap = std::numeric_limits<double>::infinity();
   const double lead = 2.5 * setup.time_step;  // the first force acts half a step after the surfaces met
   Grains<D> grains;
-  add(grains, i, origin - lead * i.velocity);
-  add(grains, j, origin + reach * n - lead * j.velocity);
+  add_ball(grains, i, origin - lead * i.velocity);
+  add_ball(grains, j, origin + reach * n - lead * j.velocity);
   soft::SoftEngine<D> engine(std::move(grains), setup);
 
-  if (!trace) engine.advance_to(static_cast<std::int64_t>(0.4 * steps));  // no contact ends so early
+  if (!trace && !watch)
+    engine.advance_to(static_cast<std::int64_t>(0.4 * steps));  // no contact ends so early
   bool touched = false;
   for (std::int64_t touching = 0;;) {
     engine.advance_to(engine.step() + 1);
     const auto contacts = engine.contacts();
+    if (watch) watch(engine, engine.time() - lead);
     touched |= !contacts.empty();
     if (contacts.empty() && (touched || engine.time() > 2 * lead)) break;
     if (trace && !contacts.empty())
@@ -115,7 +95,7 @@ ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
   outcome.v_n_after = dot(outcome.j.velocity - outcome.i.velocity, outcome.normal);
   if (v_s > 0) {
     const auto along = turned((1 / v_s) * slip, n, outcome.normal);
-    const auto slip_after = laws::surface_slip(outcome.normal, collider(outcome.i), collider(outcome.j));
+    const auto slip_after = laws::surface_slip(outcome.normal, outcome.i.collider(), outcome.j.collider());
     outcome.psi_after = dot(slip_after, along) / -v_n;
   }
   outcome.energy_after = energy(outcome.i, outcome.j);
@@ -125,6 +105,8 @@ ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
   return outcome;
 }
 
+template struct BinaryImpact<2>;
+template struct BinaryImpact<3>;
 template ImpactOutcome<2> collide(const BinaryImpact<2>&);
 template ImpactOutcome<3> collide(const BinaryImpact<3>&);
 

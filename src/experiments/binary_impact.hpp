@@ -1,20 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "laws/list.hpp"
-#include "soft/soft_engine.hpp"
+#include "experiments/ball.hpp"
 
 /// Two grains meet, and nothing else: what a pair of contact laws does to a collision.
 namespace chute::experiments {
-
-/// A solid sphere (I = 2/5 m R²), in 2D too.
-template <int D>
-struct Ball {
-  double radius = 1, mass = 1;
-  Vec<D> velocity{};
-  Vec<turns<D>> spin{};
-  bool fixed = false;  ///< infinitely heavy; it must then be the second one, at rest
-};
 
 template <int D>
 struct BinaryImpact {
@@ -25,7 +15,14 @@ struct BinaryImpact {
       2000;  ///< time steps in the contact time, or in the time to pass through each other, if shorter
   bool trace = false;  ///< keep the forces of every step
   soft::Scheme scheme = soft::Scheme::gear5;
-  Vec<D> origin{};  ///< where they meet
+  Vec<D> origin{};      ///< where they meet
+  Watch<D> watch = {};  ///< called after every step, if there is one
+
+  laws::Pair pair() const { return pair_of(i, j); }
+  double approach() const { return -dot(j.velocity - i.velocity, normal); }  ///< |v_n| before
+  /// The contact time of the normal law at that speed, or the time to pass through each other unhindered if
+  /// that is shorter: the chord inside the contact is 2 (R_i + R_j) cos ϑ (2.16).
+  double shortest_time() const;
 };
 
 /// One instant of the contact.

@@ -1,7 +1,8 @@
 #include "experiments/column.hpp"
 
+#include <cmath>
+
 #include "common/error.hpp"
-#include "soft/soft_engine.hpp"
 
 namespace chute::experiments {
 namespace {
@@ -18,35 +19,37 @@ bool dispersing(const Grains<2>& grains) {
 
 }  // namespace
 
-double total_restitution(const Column& column) {
-  // Linear forces: only t_0/t_n matters, as long as overlaps are small against the grains.
-  constexpr double radius = 0.5, mass = 1, speed = 1, stiffness = 1e8;
-  const auto law = laws::SpringDashpot::from_restitution(stiffness, column.restitution);
-  const double t_n = law.contact_time(mass / 2), gap = speed * column.gap_time * t_n;
-  soft::SoftSetup<2> setup;
-  setup.laws = {law, laws::Frictionless{}};
-  setup.time_step = t_n / column.steps_per_contact;
-  setup.skins = soft::usual_skins<2>(2 * radius);
-  Grains<2> grains;
-  const double inertia = 0.4 * mass * radius * radius;
-  for (int k = 1; k <= column.count; ++k) {
-    grains.add({{k * (2 * radius + gap), 0}}, radius, mass, inertia, true);
-    grains.velocity[0].back() = -speed;
-  }
-  grains.add({}, radius, mass, inertia, false);  // the wall: in one dimension a fixed grain is as good
-  soft::SoftEngine<2> engine(std::move(grains), setup);
+double Column::contact_time() const {
+  return laws::normal_impact(laws, speed, pair_of(grain, grain)).contact_time;
+}
 
-  const auto look = static_cast<std::int64_t>(column.steps_per_contact);
-  const double patience = 1000.0 * column.count * (1 + column.gap_time);
+ColumnOutcome hit_wall(const Column& column) {
+  const auto& grain = column.grain;
+  const double t_n = column.contact_time(), gap = column.speed * column.gap_time * t_n;
+  const double dt = t_n / column.steps_per_contact;
+  Grains<2> grains;
+  Ball<2> ball = grain;
+  ball.velocity = {{-column.speed, 0}};
+  for (int k = 1; k <= column.count; ++k) add_ball(grains, ball, {{k * (2 * grain.radius + gap), 0}});
+  Ball<2> wall = grain;  // in one dimension a fixed grain is as good
+  wall.velocity = {}, wall.fixed = true;
+  add_ball(grains, wall, {});
+  soft::SoftEngine<2> engine(std::move(grains), free_space<2>(column.laws, dt, 2 * grain.radius));
+
+  const auto steps = static_cast<std::int64_t>(std::ceil(column.steps_per_contact));
+  const double patience = 1000.0 * column.count * (1 + column.gap_time), lead = gap / column.speed;
   do {
-    engine.advance_to(engine.step() + look);
-    if (static_cast<double>(engine.step()) > patience * column.steps_per_contact)
-      throw WorkError("the column does not disperse");
+    for (std::int64_t k = 0; k < steps; k += column.watch ? 1 : steps) {
+      engine.advance_to(engine.step() + (column.watch ? 1 : steps));
+      if (column.watch) column.watch(engine, engine.time() - lead);
+    }
+    if (engine.time() > patience * t_n) throw WorkError("the column does not disperse");
   } while (!engine.contacts().empty() || !dispersing(engine.state()));
 
-  double sum = 0;
-  for (std::size_t k = 0; k < engine.state().moving; ++k) sum += engine.state().velocity[0][k];
-  return sum / (column.count * speed);
+  double momentum = 0, energy = 0;
+  for (const double v : std::span(engine.state().velocity[0]).first(engine.state().moving))
+    momentum += v / column.speed, energy += v * v / (column.speed * column.speed);
+  return {momentum / column.count, std::sqrt(energy / column.count), engine.time() - lead};
 }
 
 }  // namespace chute::experiments

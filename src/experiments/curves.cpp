@@ -2,17 +2,20 @@
 
 #include <cmath>
 
-#include "experiments/parallel.hpp"
+#include "common/side_by_side.hpp"
 
 namespace chute::experiments {
 
-std::vector<figures::FigureRow> evaluate(const std::vector<ComputedCurve>& curves, int jobs) {
+std::vector<figures::FigureRow> evaluate(const std::vector<ComputedCurve>& curves, int jobs,
+                                         const std::function<bool(double)>& progress) {
   std::vector<figures::FigureRow> rows;
   std::vector<const ComputedCurve*> of_row;
   for (const auto& curve : curves)
     for (const double x : curve.x)
       rows.push_back({curve.panel, curve.series, x, 0}), of_row.push_back(&curve);
-  for_each(rows.size(), jobs, [&](std::size_t k) { rows[k].y = of_row[k]->y(rows[k].x); });
+  const auto on = [&](double part) { return !progress || progress(part); };
+  side_by_side(rows.size(), jobs, on,
+               [&](std::size_t k, const Report&) { rows[k].y = of_row[k]->y(rows[k].x); });
   return rows;
 }
 

@@ -14,8 +14,10 @@ struct ComputedCurve {
   std::function<double(double)> y;
 };
 
-/// All points of all curves, up to `jobs` at a time, in the order of the curves.
-std::vector<figures::FigureRow> evaluate(const std::vector<ComputedCurve>& curves, int jobs);
+/// All points of all curves, up to `jobs` at a time, in the order of the curves. `progress` is told the part
+/// that is done, and stops the work by returning false (WorkError).
+std::vector<figures::FigureRow> evaluate(const std::vector<ComputedCurve>& curves, int jobs,
+                                         const std::function<bool(double)>& progress = {});
 
 /// `count` ≥ 2 numbers from `low` to `high`, evenly spaced or evenly in the logarithm.
 std::vector<double> evenly(double low, double high, int count);

@@ -60,11 +60,13 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.value("scene", recipe.scene);
   a.value("compute", recipe.compute);
   a.value("table", recipe.table);
-  const int sources = recipe.scene.has_value() + recipe.compute.has_value() + recipe.table.has_value();
+  a.section("experiment", recipe.experiment);
+  const int sources = recipe.scene.has_value() + recipe.compute.has_value() + recipe.table.has_value() +
+                      recipe.experiment.has_value();
   a.check(sources <= 1, "scene",
-          "give one of scene (simulate), compute (a built-in computation), table (a CSV file), or curves "
-          "with runs");
-  if (recipe.compute || recipe.table) return;
+          "give one of scene (simulate), experiment, compute (a built-in computation), table (a CSV file), or "
+          "curves with runs");
+  if (recipe.compute || recipe.table || recipe.experiment) return;
   a.value("set", recipe.set);
   a.value("quick", recipe.quick);
   a.value("seeds", recipe.seeds, between(1, 10000));

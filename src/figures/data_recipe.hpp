@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/toml_reader.hpp"
+#include "experiments/recipe.hpp"
 
 namespace chute::figures {
 
@@ -47,6 +48,7 @@ struct Curve {
 struct DataRecipe {
   std::optional<std::string> scene;    ///< scene file, relative to the recipe
   std::optional<std::string> compute;  ///< instead: a computation that is no run of a scene, by name
+  std::optional<experiments::ExperimentRecipe> experiment;  ///< instead: results of an experiment
   bool runs = false;                   ///< instead: every curve names its `runs`
   std::optional<std::string> table;    ///< instead: a CSV file as figures have it, relative to the recipe
   std::vector<std::string> set;        ///< key=value for every run

@@ -22,7 +22,7 @@ Contact make_contact(const NormalKeys& normal, const ShearKeys& shear, const Ref
           return keys;
       },
       shear);
-  if (friction(contact.shear) == 0.0) contact.shear = Frictionless{};
+  if (const double* mu = friction(contact.shear); mu && *mu == 0) contact.shear = Frictionless{};
   return contact;
 }
 

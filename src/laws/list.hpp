@@ -100,16 +100,16 @@ inline NormalImpact normal_impact(const Contact& contact, double speed, Pair p) 
       contact.normal);
 }
 
-/// μ of a tangential law, if it has one.
-inline std::optional<double> friction(const Shear& shear) {
+/// Where a tangential law keeps its μ; null if it has none.
+inline double* friction(Shear& shear) {
   return std::visit(
-      [](const auto& law) -> std::optional<double> {
+      [](auto& law) -> double* {
         if constexpr (requires { law.friction; })
-          return law.friction;
+          return &law.friction;
         else if constexpr (requires { law.spring.friction; })
-          return law.spring.friction;
+          return &law.spring.friction;
         else
-          return {};
+          return nullptr;
       },
       shear);
 }

@@ -28,8 +28,9 @@ event::HardContact hard_contact(const scene::Scene& scene) {
   if (engine.restitution_velocity)
     contact.restitution =
         laws::PowerLawRestitution{1 - e_n, *engine.restitution_velocity, engine.restitution_exponent};
-  const auto shear = scene.contact.laws(scene.reference_pair()).shear;
-  contact.tangential = {engine.friction.value_or(laws::friction(shear).value_or(0)),
+  auto shear = scene.contact.laws(scene.reference_pair()).shear;
+  const double* mu = laws::friction(shear);
+  contact.tangential = {engine.friction.value_or(mu ? *mu : 0),
                         engine.tangential_restitution};
   return contact;
 }

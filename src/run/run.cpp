@@ -1,8 +1,6 @@
 #include "run/run.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include <chrono>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include "run/engine_factory.hpp"
 #include "run/flow.hpp"
 #include "run/observers.hpp"
+#include "run/record.hpp"
 #include "run/version.hpp"
 
 namespace chute::run {
@@ -77,7 +76,7 @@ class Run {
   Schedule checkpoint_due_;
   std::int64_t steps_per_report_ = 1000;
   Clock::time_point reported_ = Clock::now();
-  std::string started_ = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+  std::string started_ = RunRecord::now();
 
   Engine& engine() { return *made_.engine; }
 
@@ -121,27 +120,19 @@ class Run {
   }
 
   void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {
-    utsname machine{};
-    uname(&machine);
-    nlohmann::ordered_json json{{"program", "chute"},
-                                {"version", version},
-                                {"commit", commit},
-                                {"command", options_.command_line},
-                                {"seed", scene_.seed},
-                                {"threads", options_.threads},
-                                {"machine", fmt::format("{} {}", machine.sysname, machine.machine)},
-                                {"started", started_},
-                                {"written", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))},
-                                {"seconds", seconds},
-                                {"steps", engine().step()},
-                                {"time_step", dt_},
-                                {"time", engine().time()},
-                                {"end", state}};
-    if (!why.empty()) json["why"] = why;
-    if (observers_.saw_something()) json["flow"] = to_json(observers_.flow(engine().grains()));
-    // a command line may hold any bytes
-    write_atomically(directory_.file("run.json"),
-                     json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    RunRecord record;
+    record.command = options_.command_line;
+    record.seed = scene_.seed;
+    record.threads = options_.threads;
+    record.started = started_;
+    record.seconds = seconds;
+    record.steps = engine().step();
+    record.time_step = dt_;
+    record.time = engine().time();
+    record.end = state;
+    record.why = why;
+    const auto flow = observers_.saw_something() ? std::optional(observers_.flow(engine().grains())) : std::nullopt;
+    write_record(directory_.file("run.json"), record, flow);
   }
 
   /// Slices of about a tenth of a second, so that progress and interruption feel prompt.

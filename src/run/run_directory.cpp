@@ -22,6 +22,7 @@ constexpr std::array own_names{"scene.toml",
                                "profiles_fine.csv",
                                "fields.csv",
                                "impact_histograms.csv",
+                               "result.csv",
                                "checkpoint"};
 
 bool is_run(const fs::path& path) { return fs::exists(path / "scene.toml") && fs::exists(path / "run.json"); }

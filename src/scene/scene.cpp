@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
+#include "scene/angle.hpp"
 #include "scene/contact.hpp"
 #include "scene/start.hpp"
 
@@ -17,24 +17,11 @@ namespace chute::scene {
 namespace {
 
 using namespace std::string_view_literals;
-constexpr std::array units_words{"reduced"sv, "SI"sv};
 constexpr std::array bed_words{"row"sv, "disordered-row"sv, "none"sv};
 constexpr std::array lattice_words{"square"sv, "none"sv};
 constexpr std::array method_words{"soft"sv, "event"sv, "stochastic"sv};
 constexpr std::array impact_friction_words{"published"sv, "without-rotation"sv};
 constexpr std::array integrator_words{"gear5"sv, "verlet"sv};
-
-/// "18 deg" or "0.3 rad" in radians; nothing if it is neither.
-std::optional<double> parse_angle(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  while (unit.starts_with(' ')) unit.remove_prefix(1);
-  if (error != std::errc{} || !std::isfinite(value)) return {};
-  if (unit == "deg") return value * std::numbers::pi / 180;
-  if (unit == "rad") return value;
-  return {};
-}
 
 }  // namespace
 
@@ -267,6 +254,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   toml::table table = parse_toml(text, name);
   for (const auto& setting : settings) set_by_path(table, setting);
   TomlReader reader(table, name);
+  if (table.contains("experiment"))
+    reader.fail("experiment",
+                "an experiment is no flow down an incline; chute run, check and figure take it");
   Scene scene;
   describe(reader, scene);
   reader.finish();

@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/contact_spec.hpp"
@@ -13,6 +15,7 @@
 namespace chute::scene {
 
 enum class Units { reduced, si };
+inline constexpr std::array<std::string_view, 2> units_words{"reduced", "SI"};
 
 /// Inclination θ: `angle = "18 deg"` (or `"0.3 rad"`), or `sin = 0.094`. Kept as it was written, so that the
 /// resolved scene gives the same bytes.

@@ -1,11 +1,33 @@
 #pragma once
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "common/atomic_file.hpp"
 #include "experiments/computed_figures.hpp"
+#include "experiments/recipe.hpp"
+
+/// All figures of the chapters on contact laws.
+inline const std::vector<std::string> law_figures{
+    "fig-1-06", "fig-2-02", "fig-2-15", "fig-3-01", "fig-3-02", "fig-3-03", "fig-3-04",
+    "fig-3-05", "fig-3-06", "fig-3-07", "fig-3-08", "fig-3-10", "table-3-1"};
+
+/// The table of a figure: a computation, or the experiments of its recipe in scenes/.
+inline experiments::FigureTable make_figure(const std::string& id,
+                                            const experiments::FigureContext& context) {
+  const auto& list = experiments::computed_figures();
+  if (list.contains(id)) return list.at(id)(context);
+  const auto file = std::filesystem::path(CHUTE_SOURCE_DIR) / "scenes" / (id + ".toml");
+  const auto table = parse_toml(read_file(file), file.string());
+  TomlReader reader(*table["data"]["experiment"].as_table(), file.string(), "data.experiment");
+  experiments::ExperimentRecipe recipe;
+  experiments::describe(reader, recipe);
+  reader.finish();
+  return experiments::make_table(recipe, file, context);
+}
 
 /// A figure's rows by panel and series, as a reader of the CSV sees them.
 namespace chute::test {
@@ -59,7 +81,7 @@ class Rows {
   static const experiments::FigureTable& computed(const std::string& id, bool quick) {
     static std::map<std::pair<std::string, bool>, experiments::FigureTable> known;
     const auto [at, is_new] = known.try_emplace({id, quick});
-    if (is_new) at->second = experiments::computed_figures().at(id)({quick, 2});
+    if (is_new) at->second = make_figure(id, {quick, 2});
     return at->second;
   }
 };

@@ -7,58 +7,36 @@
 #include "experiments/binary_impact.hpp"
 #include "experiments/curves.hpp"
 #include "experiments/pushed_cylinder.hpp"
+#include "laws/walton.hpp"
 
 namespace chute::experiments {
 namespace {
 
-double restitution(const laws::Normal& normal, double v, double steps) {
-  return collide(Acetate::meet({normal, laws::Frictionless{}}, v, 0, steps)).restitution();
-}
-
-const laws::Hertz& hertz() {
-  static const auto law = laws::Hertz::from_stiffness(Acetate::hertz_stiffness);
-  return law;
+/// ψ_f of two equal spheres that collide with v_n = −1 and v_s = ψ_i under Walton's model.
+double walton_psi(const laws::Walton& walton, double e_n, double psi) {
+  const double R = 1, m = 1;
+  laws::Collider<2> i{{{1, psi}}, {}, R, 1 / m, 2.5 / (m * R * R)}, j{{}, {}, R, 1 / m, 2.5 / (m * R * R)};
+  const Vec<2> n{{1, 0}};
+  walton(n, e_n, i, j);
+  return -laws::surface_slip(n, i, j)[1];  // s = (0, −1)
 }
 
 laws::HertzLinearDamping linearly_damped(double damping) {
-  return {hertz(), damping, laws::MassScaling::none};
+  return {laws::Hertz::from_stiffness(Acetate::hertz_stiffness), damping, laws::MassScaling::none};
 }
 
 }  // namespace
 
-FigureTable compute_fig_3_01(const FigureContext& context) {
-  struct Series {
-    const char* name;
-    laws::Normal law;
-    double exponent;
-    double elastic;  ///< velocity at the end of the range where the law is most elastic
-  };
-  const std::vector<Series> all = {
-      {"spring-dashpot", Acetate::spring_dashpot(), 0, 1},
-      {"hertz-linear-damping", linearly_damped(0.35), -0.2, 100},
-      {"hertz-kuwabara-kono", laws::HertzKuwabaraKono::from_damping(hertz(), 190, laws::MassScaling::none),
-       0.2, 0.01}};
-  const double steps = context.quick ? 500 : 4000;
-  const auto velocities = logarithmically(0.01, 100, context.quick ? 17 : 65);
-  std::vector<ComputedCurve> curves;
-  for (const auto& [name, law, exponent, elastic] : all) {
-    curves.push_back(
-        {"", name, velocities, [law = law, steps](double v) { return restitution(law, v, steps); }});
-    const double amplitude = (1 - restitution(law, elastic, steps)) / std::pow(elastic, exponent);
-    curves.push_back({"", std::string(name) + " fit", velocities,
-                      [=, e = exponent](double v) { return 1 - amplitude * std::pow(v, e); }});
-  }
+FigureTable compute_fig_1_06(const FigureContext& context) {
+  const laws::Walton walton{0.21, 0.39};
   FigureTable table;
-  table.comments = {
-      "x: impact velocity, m/s", "y: coefficient of normal restitution e_n",
-      "head-on impacts of two free acetate spheres, integrated by the soft-sphere engine: (3.1) with k_n = "
-      "7.32e6 N/m, "
-      "gamma_n = 2.06 kg/s; (3.5) with k_n = 9.0e7 N/m^1.5, gamma_n = 0.35 kg/s; (3.6) with k_n = 9.0e7 "
-      "N/m^1.5, "
-      "gamma_n = 190 kg/(m^0.5 s)",
-      "fit: 1 - e_n = a v^p with p = 0, -1/5, 1/5, and a from the most elastic point of the range"};
-  table.rows = evaluate(curves, context.jobs);
-  note_quick(table, context, "17 velocities instead of 65, 500 steps per contact instead of 4000");
+  table.comments = {"x: psi_i = v_s/|v_n| before the collision", "y: psi_f = v_s/|v_n before| after it",
+                    "Walton's collision operator (2.22) to (2.31) on two equal spheres; e_n = 0.89, mu = "
+                    "0.21, beta = 0.39"};
+  table.rows = evaluate({{"", "walton", evenly(0, 5, context.quick ? 51 : 501),
+                          [&](double psi) { return walton_psi(walton, 0.89, psi); }}},
+                        context.jobs);
+  note_quick(table, context, "51 points instead of 501");
   return table;
 }
 
@@ -93,24 +71,6 @@ FigureTable compute_fig_3_02(const FigureContext& context) {
   return table;
 }
 
-FigureTable compute_fig_3_03(const FigureContext& context) {
-  const double k_1 = Acetate::stiffness, s = 2e5, steps = context.quick ? 500 : 4000;
-  const laws::Normal law = laws::WaltonBraun::from_hardening(k_1, s);
-  const auto velocities = logarithmically(0.01, 100, context.quick ? 17 : 65);
-  FigureTable table;
-  table.comments = {
-      "x: impact velocity, m/s", "y: coefficient of normal restitution e_n",
-      "head-on impacts of two free acetate spheres, integrated by the soft-sphere engine: (3.7) with "
-      "k_1 = 7.32e6 N/m, k_2 = k_1 + s F_max, s = 2e5 1/m"};
-  table.rows = evaluate(
-      {{"", "simulation", velocities, [&](double v) { return restitution(law, v, steps); }},
-       {"", "eq 3.8", velocities,
-        [&](double v) { return 1 / std::sqrt(1 + s * v * std::sqrt(Acetate::reduced_mass / k_1)); }}},
-      context.jobs);
-  note_quick(table, context, "17 velocities instead of 65, 500 steps per contact instead of 4000");
-  return table;
-}
-
 namespace {
 
 constexpr double block_friction = 0.5, plane_friction = 0.25, stiffness = 2e7;
@@ -134,24 +94,6 @@ const std::string set_up_note =
     "k_n = 2e7, e_n = 0.2 on the plane; from rest, F_p = 0.8 until t = 0.02, then 0.2 until t = 0.06; "
     "Runge-Kutta";
 const std::string laws_note = "a: (3.12) with gamma_s = 1000; b: (3.13) with k_s = k_n; c: as b with (3.25)";
-
-/// Mean and half of the range of one quantity over the last part of a push. The mean is weighted with a bell,
-/// 1 − cos, so that a ringing leaves nothing of the period that the interval cuts off.
-struct Steady {
-  double mean, swing;
-};
-template <class Get>
-Steady steady(const std::vector<CylinderState>& states, double from, double to, const Get& get) {
-  double sum = 0, weights = 0, low = INFINITY, high = -INFINITY;
-  for (const auto& s : states) {
-    if (s.time <= from || s.time >= to) continue;
-    const double weight = 1 - std::cos(2 * std::numbers::pi * (s.time - from) / (to - from)), value = get(s);
-    sum += weight * value;
-    weights += weight;
-    low = std::min(low, value), high = std::max(high, value);
-  }
-  return {sum / weights, (high - low) / 2};
-}
 
 }  // namespace
 
@@ -181,6 +123,8 @@ FigureTable compute_table_3_1(const FigureContext& context) {
                     "b at F_p = 0.2: the spring of the plane, stretched by all the slip before, still holds "
                     "the sliding force; it "
                     "lets go at t = 0.072 and then swings to the other side"};
+  constexpr double CylinderState::*quantities[] = {&CylinderState::plane_force, &CylinderState::block_force,
+                                                   &CylinderState::acceleration, &CylinderState::spin_up};
   const double end = first.duration + second.duration;
   std::vector<std::vector<CylinderState>> runs;
   for (const char law : {'a', 'b', 'c'}) runs.push_back(push(cylinder(law), {first, second}, 1));
@@ -192,9 +136,7 @@ FigureTable compute_table_3_1(const FigureContext& context) {
     for (int q = 0; q < 4; ++q) table.rows.push_back({panel, "theory", q + 1.0, exact[q]});
     for (std::size_t law = 0; law < runs.size(); ++law)
       for (int q = 0; q < 4; ++q) {
-        const auto value = steady(runs[law], from, to, [q](const CylinderState& s) {
-          return q == 0 ? s.plane_force : q == 1 ? s.block_force : q == 2 ? s.acceleration : s.spin_up;
-        });
+        const auto value = steady(runs[law], from, to, quantities[q]);
         const auto swing = law == 0 ? std::optional<double>() : value.swing;
         table.rows.push_back(
             {panel, std::string(1, static_cast<char>('a' + law)), q + 1.0, value.mean, {}, swing});
@@ -202,6 +144,15 @@ FigureTable compute_table_3_1(const FigureContext& context) {
   }
   static_cast<void>(context);  // it takes no time
   return table;
+}
+
+const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& computed_figures() {
+  static const std::map<std::string, std::function<FigureTable(const FigureContext&)>> all = {
+      {"fig-1-06", compute_fig_1_06},
+      {"fig-3-02", compute_fig_3_02},
+      {"fig-3-10", compute_fig_3_10},
+      {"table-3-1", compute_table_3_1}};
+  return all;
 }
 
 }  // namespace chute::experiments

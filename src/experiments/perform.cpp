@@ -1,0 +1,288 @@
+#include "experiments/perform.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "common/atomic_file.hpp"
+#include "common/error.hpp"
+#include "common/toml_reader.hpp"
+#include "io/csv.hpp"
+#include "io/vtk_files.hpp"
+#include "run/record.hpp"
+#include "run/version.hpp"
+
+namespace chute::experiments {
+namespace {
+
+using Kind = Experiment::Kind;
+using Engine2 = soft::SoftEngine<2>;
+
+struct UnitsOf {
+  std::string speed, time, length, spin;
+  explicit UnitsOf(scene::Units units) {
+    if (units == scene::Units::si)
+      speed = "m/s", time = "s", length = "m", spin = "1/s";
+    else
+      speed = "sqrt(gd)", time = "sqrt(d/g)", length = "d", spin = "sqrt(g/d)";
+  }
+};
+
+std::string units_text(const Experiment& e) {
+  return std::string(scene::units_words[static_cast<std::size_t>(e.units)]);
+}
+
+/// Watches an engine: a row of the series every so many steps, and frames.
+class Recorder {
+ public:
+  using Row = std::function<std::vector<double>(const Engine2&)>;
+  Recorder(const Experiment& e, std::vector<std::string> columns, Row row, Outcome& into)
+      : row_(std::move(row)), into_(into), step_(e.step()), series_(steps(e.series.every)) {
+    into_.columns = std::move(columns);
+    into_.columns.insert(into_.columns.begin(), "time");
+    if (e.frames) frames_ = steps(e.frames->every);
+    facts_.units = units_text(e);
+  }
+
+  void operator()(const Engine2& engine, double time) {
+    if (engine.step() % series_ == 0) {
+      auto row = row_(engine);
+      row.insert(row.begin(), time);
+      into_.series.push_back(std::move(row));
+    }
+    if (frames_ > 0 && engine.step() % frames_ == 0) {
+      into_.frames.push_back(io::grains_vtp(engine.grains(), facts_));
+      into_.frame_times.push_back(engine.time());
+    }
+  }
+
+ private:
+  Row row_;
+  Outcome& into_;
+  double step_;
+  std::int64_t series_, frames_ = 0;
+  io::RunFacts facts_;
+
+  std::int64_t steps(double every) const { return std::max<std::int64_t>(1, std::llround(every / step_)); }
+};
+
+/// Overlap and forces of a pair, its relative velocity along n and s, and the spins.
+std::vector<double> pair_row(const Engine2& engine) {
+  const auto& g = engine.state();
+  const auto way = g.place(1) - g.place(0);
+  const auto n = (1 / norm(way)) * way;
+  const auto dv = g.speed(1) - g.speed(0);
+  const double v_n = dot(dv, n), turning = g.radius[0] * g.spin[0][0] + g.radius[1] * g.spin[0][1];
+  const auto contacts = engine.contacts();
+  const bool touch = !contacts.empty();
+  return {touch ? contacts[0].overlap : 0,
+          touch ? contacts[0].normal_force : 0,
+          touch ? contacts[0].shear_force : 0,
+          v_n,
+          dv[0] * n[1] - dv[1] * n[0] + turning,
+          g.spin[0][0],
+          g.spin[0][1]};
+}
+
+/// d ln(1 − e_n) / d ln v of the normal law: 0, −1/5, 1/5 in the elastic limits of (3.1), (3.5), (3.6).
+double loss_exponent(const laws::Contact& laws, double v, laws::Pair pair) {
+  const double step = 1.02, a = laws::normal_impact(laws, v / step, pair).restitution,
+               b = laws::normal_impact(laws, v * step, pair).restitution;
+  return std::log((1 - b) / (1 - a)) / (2 * std::log(step));
+}
+
+Outcome impact(const Experiment& e, bool record) {
+  Outcome made;
+  auto set_up = e.impact();
+  const UnitsOf in(e.units);
+  if (record)
+    set_up.watch = Recorder(e, {"overlap", "F_n", "F_s", "v_n", "v_s", "omega_i", "omega_j"}, pair_row, made);
+  const auto done = collide(set_up);
+  const auto law = laws::normal_impact(set_up.laws, set_up.approach(), set_up.pair());
+  const auto add = [&](const char* name, double value, const std::string& unit, const char* meaning) {
+    made.results.push_back({name, value, unit, meaning});
+  };
+  add("e_n", done.restitution(), "", "normal restitution (1.29)");
+  add("e_n law", law.restitution, "", "the same from the closed form of the law, or its exact integration");
+  add("exponent", loss_exponent(set_up.laws, set_up.approach(), set_up.pair()), "",
+      "d ln(1 - e_n)/d ln v of the law at this velocity");
+  add("t_n", done.contact_time, in.time, "contact time, to within a step");
+  add("e", done.total_restitution(), "", "total restitution (3.9), root of the energies' ratio");
+  add("normal_loss", done.normal_loss / done.energy_before, "",
+      "part of the energy that the normal force took");
+  add("shear_loss", done.shear_loss / done.energy_before, "", "part that the tangential force took");
+  if (e.kind == Kind::oblique_impact) {
+    const auto before = set_up.j.velocity - set_up.i.velocity, after = done.j.velocity - done.i.velocity;
+    add("psi_i", done.psi_before, "", "v_s/|v_n| before (1.32), with the spins");
+    add("psi_f", done.psi_after, "", "v_s after over |v_n| before (1.33)");
+    if (done.psi_before > 0)
+      add("e_t", -done.psi_after / done.psi_before, "", "tangential restitution, -v_s after over before");
+    add("braking", norm(before) - dot(after, before) / norm(before), in.speed,
+        "-Delta v_x: what the relative velocity lost along itself");
+    add("v_bf", 2 * e.reach() * std::cos(e.theta()) / law.contact_time, in.speed,
+        "brake failure above this velocity (2.16, corrected)");
+  }
+  add("v_x i", done.i.velocity[0], in.speed, "of i along the first n");
+  add("v_y i", done.i.velocity[1], in.speed, "of i across it");
+  add("omega_i", done.i.spin[0], in.spin, "spin of i, anticlockwise");
+  add("v_x j", done.j.velocity[0], in.speed, "of j along the first n");
+  add("v_y j", done.j.velocity[1], in.speed, "of j across it");
+  add("omega_j", done.j.spin[0], in.spin, "spin of j");
+  made.time = done.contact_time;
+  return made;
+}
+
+Outcome column(const Experiment& e, bool record) {
+  Outcome made;
+  auto set_up = e.column_set_up();
+  const auto mean = [N = e.count, v_0 = e.velocity](const Engine2& engine) -> std::vector<double> {
+    double momentum = 0, energy = 0;
+    for (std::size_t k = 0; k < engine.state().moving; ++k) {
+      const double v = engine.state().velocity[0][k] / v_0;
+      momentum += v, energy += v * v;
+    }
+    const auto n = static_cast<double>(N);
+    return {static_cast<double>(engine.contacts().size()), momentum / n, energy / n};
+  };
+  if (record) set_up.watch = Recorder(e, {"contacts", "momentum", "energy"}, mean, made);
+  const auto done = hit_wall(set_up);
+  const auto pair = laws::normal_impact(set_up.laws, e.velocity, e.pair());
+  made.results = {
+      {"e_tot", done.total_restitution, "", "of the column's momentum (2.15)"},
+      {"e", done.energy_restitution, "", "root of the ratio of the kinetic energies"},
+      {"e_n", pair.restitution, "", "restitution of two grains"},
+      {"duration", done.duration / pair.contact_time, "t_n", "from the first contact to the last"}};
+  made.time = done.duration;
+  return made;
+}
+
+Outcome brake_failure(const Experiment& e, bool record) {
+  Outcome made;
+  auto set_up = e.brake_failure();
+  const UnitsOf in(e.units);
+  const auto row = [](const Engine2& engine) -> std::vector<double> {
+    const auto& g = engine.state();
+    double overlap = 0;
+    const auto contacts = engine.contacts();
+    for (const auto& c : contacts) overlap = std::max(overlap, c.overlap);
+    return {g.position[0][0],
+            g.position[1][0],
+            g.velocity[0][0],
+            g.velocity[1][0],
+            g.spin[0][0],
+            overlap,
+            static_cast<double>(contacts.size())};
+  };
+  if (record) set_up.watch = Recorder(e, {"x", "y", "v_x", "v_y", "omega", "overlap", "contacts"}, row, made);
+  const auto done = skim(set_up);
+  const double t_n = laws::normal_impact(set_up.laws, set_up.approach(), set_up.pair()).contact_time;
+  made.results = {
+      {"braking", e.velocity - done.ball.velocity[0], in.speed,
+       "-Delta v_x: what the ball lost along the wall"},
+      {"kick", done.ball.velocity[1], in.speed, "velocity away from the wall"},
+      {"touched", static_cast<double>(done.touched), "", "grains of the wall that it touched; hard ones: 1"},
+      {"deepest", done.deepest / set_up.wall_radius, "r", "largest overlap over a wall grain's radius"},
+      {"omega", done.ball.spin[0], in.spin, "spin afterwards, anticlockwise"},
+      {"duration", done.duration / t_n, "t_n", "from the first contact to the end of the last"},
+      {"v_bf", 2 * e.reach() * std::cos(e.theta()) / t_n, in.speed,
+       "brake failure above this velocity (2.16, corrected)"}};
+  made.time = done.duration;
+  return made;
+}
+
+Outcome pushed_cylinder(const Experiment& e, bool record) {
+  Outcome made;
+  const auto pushes = e.pushes();
+  const int every =
+      record ? static_cast<int>(std::max<std::int64_t>(1, std::llround(e.series.every / e.time_step))) : 1;
+  const auto states = push(e.cylinder(), pushes, every);
+  made.columns = {"time", "F_s^p", "F_s^b", "dv/dt", "domega/dt", "v", "omega"};
+  for (const auto& s : states)
+    made.series.push_back(
+        {s.time, s.plane_force, s.block_force, s.acceleration, s.spin_up, s.velocity, s.spin});
+  auto laws = e.laws();
+  double begin = 0;
+  for (std::size_t k = 0; k < pushes.size(); ++k) {
+    const auto theory = steady_cylinder(pushes[k].force, e.block_friction, *laws::friction(laws.shear));
+    const double end = begin + pushes[k].duration;
+    const auto add = [&](const char* name, double CylinderState::*member, double expected) {
+      const auto found = steady(states, end - 0.25 * pushes[k].duration, end, member);
+      made.results.push_back({fmt::format("{} {}", name, k + 1), found.mean, "",
+                              fmt::format("mean of the last quarter at F_p = {}; +- {:.4g}; theory {:.6g}",
+                                          pushes[k].force, found.swing, expected)});
+    };
+    add("F_s^p", &CylinderState::plane_force, theory.plane_force);
+    add("F_s^b", &CylinderState::block_force, theory.block_force);
+    add("dv/dt", &CylinderState::acceleration, theory.acceleration);
+    add("domega/dt", &CylinderState::spin_up, theory.spin_up);
+    begin = end;
+  }
+  made.time = begin;
+  return made;
+}
+
+void write_files(const Experiment& e, const Outcome& outcome, const run::RunDirectory& directory) {
+  const auto comment =
+      fmt::format("{}; units: {}; chute {} ({})", e.title, units_text(e), run::version, run::commit);
+  io::Csv series({"what happened, per time since the surfaces met", comment},
+                 {outcome.columns.begin(), outcome.columns.end()});
+  for (const auto& row : outcome.series)
+    series.row(std::vector<io::Csv::Cell>(row.begin(), row.end()));
+  write_atomically(directory.file("series.csv"), series.text());
+  io::Csv result({"what the experiment gave; meanings: chute run prints them", comment},
+                 {"name", "unit", "value"});
+  for (const auto& r : outcome.results) result.row({r.name, r.unit}, {r.value});
+  write_atomically(directory.file("result.csv"), result.text());
+  if (outcome.frames.empty()) return;
+  std::filesystem::create_directories(directory.file("frames"));
+  std::vector<std::string> names;
+  for (const auto& frame : outcome.frames) {
+    names.push_back(fmt::format("frames/{:06}.vtp", names.size()));
+    write_atomically(directory.file(names.back()), frame);
+  }
+  write_atomically(directory.file("frames.pvd"), io::pvd(outcome.frame_times, names));
+}
+
+}  // namespace
+
+double Outcome::operator[](const std::string& name) const {
+  std::vector<std::string> known;
+  for (const auto& r : results) {
+    if (r.name == name) return r.value;
+    known.push_back(r.name);
+  }
+  const auto hint = nearest(name, known);
+  throw InputError(fmt::format("\"{}\" is no result of this experiment{}, known: {}", name,
+                               hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint),
+                               fmt::join(known, ", ")));
+}
+
+Outcome perform(const Experiment& e, bool record) {
+  Outcome outcome = e.kind == Kind::column            ? column(e, record)
+                    : e.kind == Kind::brake_failure   ? brake_failure(e, record)
+                    : e.kind == Kind::pushed_cylinder ? pushed_cylinder(e, record)
+                                                      : impact(e, record);
+  outcome.steps = std::llround(outcome.time / e.step());
+  return outcome;
+}
+
+Outcome run_experiment(const Experiment& e, const run::RunOptions& options) {
+  const run::RunDirectory directory(options.directory, options.existing);
+  run::RunRecord record;
+  record.command = options.command_line;
+  const auto begin = std::chrono::steady_clock::now();
+  Outcome outcome = perform(e, true);
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  record.steps = outcome.steps;
+  record.time_step = e.step();
+  record.time = outcome.time;
+  record.end = "finished";
+  write_atomically(directory.file("scene.toml"), to_toml(e));
+  write_files(e, outcome, directory);
+  run::write_record(directory.file("run.json"), record);
+  return outcome;
+}
+
+}  // namespace chute::experiments

@@ -1,0 +1,41 @@
+#include "run/record.hpp"
+
+#include <fmt/chrono.h>
+#include <sys/utsname.h>
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "common/atomic_file.hpp"
+#include "run/flow.hpp"
+#include "run/version.hpp"
+
+namespace chute::run {
+
+std::string RunRecord::now() { return fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr))); }
+
+void write_record(const std::filesystem::path& file, const RunRecord& r,
+                  const std::optional<measure::Flow>& flow) {
+  utsname machine{};
+  uname(&machine);
+  nlohmann::ordered_json json{{"program", "chute"},
+                              {"version", version},
+                              {"commit", commit},
+                              {"command", r.command},
+                              {"seed", r.seed},
+                              {"threads", r.threads},
+                              {"machine", fmt::format("{} {}", machine.sysname, machine.machine)},
+                              {"started", r.started},
+                              {"written", RunRecord::now()},
+                              {"seconds", r.seconds},
+                              {"steps", r.steps},
+                              {"time_step", r.time_step},
+                              {"time", r.time},
+                              {"end", r.end}};
+  if (!r.why.empty()) json["why"] = r.why;
+  if (flow) json["flow"] = to_json(*flow);
+  // a command line may hold any bytes
+  write_atomically(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace chute::run

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "measure/steadiness.hpp"
+
+namespace chute::run {
+
+/// run.json: what made a run directory, and how it ended.
+struct RunRecord {
+  std::string command;
+  std::int64_t seed = 0;
+  int threads = 1;
+  std::string started = now();
+  double seconds = 0;
+  std::int64_t steps = 0;
+  double time_step = 0, time = 0;
+  std::string end, why;  ///< `why` is left out if empty
+
+  /// This moment in universal time, 2026-01-31T12:00:00Z.
+  static std::string now();
+};
+
+/// Writes it, with what became of the flow if that is known.
+void write_record(const std::filesystem::path& file, const RunRecord& record,
+                  const std::optional<measure::Flow>& flow = {});
+
+}  // namespace chute::run
