@@ -18,8 +18,8 @@ void draw_inset(Layout& out, const Inset& inset, const Rect& frame, int panel, c
   if (const auto room = occupied.room_for(width, height, inset_from_frame, inset.place)) at = room->at;
   if (!at) at = occupied.beside_texts(width, height, inset_from_frame, inset.place);
   if (!at)
-    throw InputError(fmt::format("an inset of {} by {} of its panel finds no room beside the texts", inset.width,
-                                 inset.height));
+    throw InputError(fmt::format("an inset of {} by {} of its panel finds no room beside the texts",
+                                 inset.width, inset.height));
   const Rect outer{at->x, at->y, at->x + width, at->y + height};
   const auto extents = extents_of(inset.plot);
   const double shrink = std::max(0.8, smallest_type / look.tick_size);

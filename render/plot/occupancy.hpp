@@ -30,8 +30,8 @@ class Occupancy {
   /// Room for a block of this size, `inset` away from the frame, that covers nothing and sits as near to a
   /// corner as can be (`wanted`: at that corner or nowhere else). Nothing if there is none.
   std::optional<Room> room_for(double width, double height, double inset, Place wanted) const;
-  /// The next best: over no text, as near as can be to the corner `wanted`, or where it covers least ink if none
-  /// is wanted. Nothing if texts fill the frame.
+  /// The next best: over no text, as near as can be to the corner `wanted`, or where it covers least ink if
+  /// none is wanted. Nothing if texts fill the frame.
   std::optional<Point> beside_texts(double width, double height, double inset, Place wanted) const;
   /// The corner place itself, taken or not.
   Point corner(double width, double height, double inset, Place place) const;
@@ -39,7 +39,7 @@ class Occupancy {
  private:
   Rect frame_;
   int columns_, rows_;
-  std::vector<int> cells_;           // 1: ink
+  std::vector<int> cells_;  // 1: ink
   std::vector<Rect> texts_;
   mutable std::vector<int> summed_;  // of the cells above and to the left; empty: to be made
 

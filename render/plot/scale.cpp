@@ -131,7 +131,8 @@ class Ruler {
       if (at >= span_.low && at <= span_.high) ticks.major.push_back({at, names[i]});
     }
     if (!fits(ticks.major, narrow_gap()))
-      throw InputError(fmt::format("the axis is too short for its {} names: \"{}\" …", names.size(), names[0]));
+      throw InputError(
+          fmt::format("the axis is too short for its {} names: \"{}\" …", names.size(), names[0]));
     return ticks;
   }
   Ticks ticks() const { return span_.scale == Scale::linear ? linear(true) : logarithmic(); }

@@ -11,7 +11,6 @@
 namespace chute::view {
 namespace {
 
-constexpr double copy_reach = 0.16;
 
 class SolidPainter : public Painter {
  public:
@@ -115,8 +114,7 @@ class SolidPainter : public Painter {
     if (!copies()) return;
     for (const double shift : {-period(), period()}) {
       const double x = frame.x[i] + shift;
-      const double beyond =
-          std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
+      const double beyond = beyond_domain(studio_.survey.domain, x);
       if (beyond < 1)
         balls_.push_back({{x, frame.y[i], frame.z[i]},
                           r,

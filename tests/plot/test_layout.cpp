@@ -122,8 +122,8 @@ Figure random_figure(Dice& dice) {
 }
 
 const char* name_of(Box::Kind kind) {
-  static const char* names[] = {"frame", "tick label",  "axis label", "factor",
-                                "title", "panel label", "legend",     "inset", "note"};
+  static const char* names[] = {"frame",       "tick label", "axis label", "factor", "title",
+                                "panel label", "legend",     "inset",      "note"};
   return names[static_cast<int>(kind)];
 }
 
