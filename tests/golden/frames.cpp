@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "golden.hpp"
@@ -113,6 +114,16 @@ void steepen(Subject& s) {
   s.survey.gravity = {std::sin(s.survey.slope), -std::cos(s.survey.slope), 0};
 }
 void turn_camera(Subject& s) { s.style.camera.azimuth += 0.1; }
+/// The strongest of those that lie high, which nothing hides in space.
+void remove_upper_chain(Subject& s) {
+  double top = 0;
+  for (const auto& c : s.contacts) top = std::max(top, c.from[2]);
+  const auto seen = [&](const read::Contact& c) {
+    return std::min(c.from[2], c.to[2]) > 0.8 * top ? c.force : 0;
+  };
+  s.contacts.erase(std::max_element(s.contacts.begin(), s.contacts.end(),
+                                    [&](const auto& a, const auto& b) { return seen(a) < seen(b); }));
+}
 void remove_chain(Subject& s) {
   std::size_t strong = 0;
   for (std::size_t i = 0; i < s.contacts.size(); ++i)
@@ -198,13 +209,15 @@ std::vector<Golden> frame_goldens() {
                            {"with colour bar", [](Subject& s) { s.style.furniture = true; }}}));
   style = small();
   style.chains = true, style.background = Background::transparent, style.camera.azimuth = 60;
-  all.push_back(
-      golden_of("frame-network", style, "frame-spheres",
-                {{"one force chain missing", remove_chain}, {"camera turned by 0.1 degrees", turn_camera}}));
+  style.camera.zoom = 2;
+  all.push_back(golden_of(
+      "frame-network", style, "frame-spheres",
+      {{"one force chain missing", remove_upper_chain}, {"camera turned by 0.1 degrees", turn_camera}}));
   style = small();
   style.trail = 6, style.arrows = true, style.camera.elevation = 35;
+  style.camera.zoom = 1.3;
   all.push_back(golden_of("frame-flight", style, "frame-spheres",
-                          {{"trails one frame shorter", forget_oldest},
+                          {{"without trails", [](Subject& s) { s.style.trail = 0, s.earlier.clear(); }},
                            {"without arrows", [](Subject& s) { s.style.arrows = false; }}}));
   return all;
 }
