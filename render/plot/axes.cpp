@@ -47,8 +47,8 @@ Axes::Axes(const Plot& plot, const Span& x, const Span& y, const TextSizes& size
     : plot_(plot), x_(x), y_(y), sizes_(sizes), show_x_(show_x), show_y_(show_y) {}
 
 Margins Axes::fit(double width, double height) {
-  x_ticks_ = ticks_for(x_, width, sizes_.tick, true);
-  y_ticks_ = ticks_for(y_, height, sizes_.tick, false);
+  x_ticks_ = ticks_for(plot_.x, x_, width, sizes_.tick, true);
+  y_ticks_ = ticks_for(plot_.y, y_, height, sizes_.tick, false);
   x_texts_.clear(), y_texts_.clear();
   tick_ascent_ = tick_descent_ = 0;
   Margins m;

@@ -17,6 +17,7 @@ struct Axis {
   std::string label;  ///< with its unit: `$v_x$ (m/s)`
   Scale scale = Scale::linear;
   std::optional<double> min, max;  ///< automatic where absent
+  std::vector<std::string> names;  ///< of the places 1, 2, 3 …: labels in place of numbers
 };
 
 enum class Kind {

@@ -121,6 +121,7 @@ class Builder {
     axis.scale = scale == AxisRecipe::Scale::log ? Scale::log : Scale::linear;
     axis.min = own.min ? own.min : general.min;
     axis.max = own.max ? own.max : general.max;
+    axis.names = own.names.empty() ? general.names : own.names;
     return axis;
   }
   static double factor(const AxisRecipe& general, const AxisRecipe& own) {
@@ -171,12 +172,20 @@ class Builder {
     return drawn;
   }
 
+  /// Over a name, points of equal height would hide each other.
+  static void set_side_by_side(std::vector<Series>& series) {
+    const double n = static_cast<double>(series.size()), step = std::min(0.16, 0.7 / std::max(1.0, n));
+    for (std::size_t i = 0; i < series.size(); ++i)
+      for (double& x : series[i].x) x += step * (static_cast<double>(i) - (n - 1) / 2);
+  }
+
   Panel make_panel(const PanelRecipe& p) const {
     Panel panel;
-    panel.label = p.label, panel.title = p.title, panel.legend = p.legend;
+    panel.label = p.tag.value_or(p.label), panel.title = p.title, panel.legend = p.legend;
     panel.x = make_axis(recipe_.x, p.x), panel.y = make_axis(recipe_.y, p.y);
     panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
     panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
+    if (!panel.x.names.empty()) set_side_by_side(panel.series);
     for (const auto& i : p.insets) {
       Inset& inset = panel.insets.emplace_back();
       inset.width = i.width, inset.height = i.height, inset.place = i.place;

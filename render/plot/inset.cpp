@@ -16,15 +16,10 @@ void draw_inset(Layout& out, const Inset& inset, const Rect& frame, int panel, c
   const double width = inset.width * frame.width(), height = inset.height * frame.height();
   std::optional<Point> at;
   if (const auto room = occupied.room_for(width, height, inset_from_frame, inset.place)) at = room->at;
-  if (!at && in_corner(inset.place)) at = occupied.corner(width, height, inset_from_frame, inset.place);
-  if (!at) {  // the least bad corner
-    double least = 2;
-    for (Place place : {Place::top_right, Place::top_left, Place::bottom_right, Place::bottom_left}) {
-      const Point p = occupied.corner(width, height, inset_from_frame, place);
-      const double covered = occupied.covered({p.x, p.y, p.x + width, p.y + height});
-      if (covered < least) least = covered, at = p;
-    }
-  }
+  if (!at) at = occupied.beside_texts(width, height, inset_from_frame, inset.place);
+  if (!at)
+    throw InputError(fmt::format("an inset of {} by {} of its panel finds no room beside the texts",
+                                 inset.width, inset.height));
   const Rect outer{at->x, at->y, at->x + width, at->y + height};
   const auto extents = extents_of(inset.plot);
   const double shrink = std::max(0.8, smallest_type / look.tick_size);
@@ -51,7 +46,7 @@ void draw_inset(Layout& out, const Inset& inset, const Rect& frame, int panel, c
   std::vector<Box> own;
   axes.draw(out.list, look, inner, m, panel, own);
   out.boxes.push_back({Box::Kind::inset, outer, panel, ""});
-  occupied.mark(outer);
+  occupied.mark_text(outer);
 }
 
 }  // namespace chute::plot

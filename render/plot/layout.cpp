@@ -228,6 +228,8 @@ class Layouter {
       const Frame frame{frames_[i], axes_[i]->x(), axes_[i]->y()};
       Painter painter{out.list, look_, occupied.emplace_back(frames_[i])};
       draw_marks(painter, frame, figure_.panels[i], looks_);
+      for (const Rect& text : occupied.back().texts())
+        out.boxes.push_back({Box::Kind::note, text, static_cast<int>(i), ""});
       Margins common;
       common.left = column_margins_[static_cast<std::size_t>(column(i))].left;
       common.right = column_margins_[static_cast<std::size_t>(column(i))].right;
@@ -272,7 +274,7 @@ class Layouter {
         const Point corner =
             occupied[i].corner(texts[i].width, texts[i].ascent + texts[i].descent, inset_from_frame, *found);
         put_heading(out, texts[i], {corner.x, corner.y + texts[i].ascent}, i);
-        occupied[i].mark(texts[i].box_at({corner.x, corner.y + texts[i].ascent}));
+        occupied[i].mark_text(texts[i].box_at({corner.x, corner.y + texts[i].ascent}));
       }
       return;
     }
@@ -313,7 +315,8 @@ class Layouter {
         if (legend.panel != -1 && legend.panel != static_cast<int>(i)) continue;
         auto room = occupied[i].room_for(width, height, inset_from_frame, legend.wanted);
         if (!room && in_corner(legend.wanted))
-          room = Occupancy::Room{occupied[i].corner(width, height, inset_from_frame, legend.wanted), 0};
+          if (const auto at = occupied[i].beside_texts(width, height, inset_from_frame, legend.wanted))
+            room = Occupancy::Room{*at, 0};
         if (!room) continue;
         room->from_corner += 12 * static_cast<double>(i);  // rather in an earlier panel
         if (best && best->from_corner <= room->from_corner) continue;
@@ -323,7 +326,7 @@ class Layouter {
       if (!best) continue;
       const Point at = best->at;
       legend.block.draw(out.list, at, columns, static_cast<int>(panel), out.boxes);
-      occupied[panel].mark({at.x, at.y, at.x + width, at.y + height});
+      occupied[panel].mark_text({at.x, at.y, at.x + width, at.y + height});
       return;
     }
     settled_ = false;

@@ -102,7 +102,7 @@ class SeriesPainter {
     if (s_.kind != Kind::dots) return;
     DotsItem item;
     // a crowd is drawn with finer dots, or it would run together
-    const double crowd = std::clamp(std::sqrt(3000.0 / static_cast<double>(s_.x.size() + 1)), 0.5, 1.0);
+    const double crowd = std::clamp(std::sqrt(3000.0 / static_cast<double>(s_.x.size() + 1)), 0.62, 1.0);
     item.shape = dot_shape(crowd * p_.look.dot_radius, ink_.marker);
     item.color = ink_.color;
     for (std::size_t i = 0; i < s_.x.size(); ++i) {
@@ -292,8 +292,8 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   painter.list.items.emplace_back(ClipEnd{});
   for (auto& s : series) s.error_bars();
   for (auto& s : series) s.markers();
-  for (const auto& reference : plot.references) draw_reference_label(painter, frame, reference);
   for (const auto& note : plot.notes) draw_note(painter, frame, note);
+  for (const auto& reference : plot.references) draw_reference_label(painter, frame, reference);
 }
 
 void draw_sample(DisplayList& list, const Look& look, const Series& series, const SeriesLook& ink, Point at,

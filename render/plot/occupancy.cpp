@@ -34,6 +34,35 @@ void Occupancy::mark_segment(Point a, Point b, double width) {
   }
 }
 
+void Occupancy::mark_text(const Rect& rect) {
+  mark(rect);
+  texts_.push_back(rect);
+}
+
+bool Occupancy::clear_of_texts(const Rect& rect) const {
+  return frame_.contains(rect) &&
+         std::none_of(texts_.begin(), texts_.end(), [&](const Rect& t) { return t.overlaps(rect); });
+}
+
+std::optional<Point> Occupancy::beside_texts(double width, double height, double inset, Place wanted) const {
+  const Rect area = frame_.grown(-inset);
+  const Point to = corner(width, height, inset, wanted);
+  const bool anywhere = wanted == Place::automatic;
+  std::optional<Point> best;
+  double least = 0;
+  const auto steps = [](double room) { return static_cast<int>(std::floor(room / cell + 1e-9)); };
+  for (int j = 0; j <= steps(area.height() - height); ++j)
+    for (int i = 0; i <= steps(area.width() - width); ++i) {
+      // from the right edge and the bottom, so that these corners are among the places
+      const Point p{area.right - width - i * cell, area.bottom - height - j * cell};
+      const Rect block{p.x, p.y, p.x + width, p.y + height};
+      if (!clear_of_texts(block.grown(1.5))) continue;
+      const double cost = anywhere ? covered(block) : std::hypot(p.x - to.x, p.y - to.y);
+      if (!best || cost < least) best = p, least = cost;
+    }
+  return best;
+}
+
 double Occupancy::covered(const Rect& r) const {
   constexpr double slack = 1e-6;
   if (r.left < frame_.left - slack || r.top < frame_.top - slack || r.right > frame_.right + slack ||

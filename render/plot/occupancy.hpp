@@ -14,6 +14,11 @@ class Occupancy {
 
   void mark(const Rect& rect);
   void mark_segment(Point a, Point b, double width);
+  /// A text, legend or inset: others may cover ink if they must, but never these.
+  void mark_text(const Rect& rect);
+  const std::vector<Rect>& texts() const { return texts_; }
+  /// Inside the frame and over no text.
+  bool clear_of_texts(const Rect& rect) const;
   /// Share of the cells under `rect` that hold ink, 0 to 1; 1 if it leaves the frame.
   double covered(const Rect& rect) const;
   bool free(const Rect& rect) const { return covered(rect) == 0; }
@@ -25,13 +30,17 @@ class Occupancy {
   /// Room for a block of this size, `inset` away from the frame, that covers nothing and sits as near to a
   /// corner as can be (`wanted`: at that corner or nowhere else). Nothing if there is none.
   std::optional<Room> room_for(double width, double height, double inset, Place wanted) const;
+  /// The next best: over no text, as near as can be to the corner `wanted`, or where it covers least ink if
+  /// none is wanted. Nothing if texts fill the frame.
+  std::optional<Point> beside_texts(double width, double height, double inset, Place wanted) const;
   /// The corner place itself, taken or not.
   Point corner(double width, double height, double inset, Place place) const;
 
  private:
   Rect frame_;
   int columns_, rows_;
-  std::vector<int> cells_;           // 1: ink
+  std::vector<int> cells_;  // 1: ink
+  std::vector<Rect> texts_;
   mutable std::vector<int> summed_;  // of the cells above and to the left; empty: to be made
 
   static constexpr double cell = 2;

@@ -28,13 +28,18 @@ enum class Width { single_column, double_column };
 enum class Share { none, x, y, both };
 enum class Ordinal : int {};
 
-void read_text(TomlReader& a, std::string_view key, std::string& target) {
-  a.value(key, target);
+/// A slip in a text names its line.
+void check_texts(TomlReader& a, std::string_view key, const std::vector<std::string>& texts) {
   try {
-    set_text(target, 10);
+    for (const auto& text : texts) set_text(text, 10);
   } catch (const InputError& error) {
     a.fail(key, error.what());
   }
+}
+
+void read_text(TomlReader& a, std::string_view key, std::string& target) {
+  a.value(key, target);
+  check_texts(a, key, {target});
 }
 void read_text(TomlReader& a, std::string_view key, std::optional<std::string>& target) {
   std::string text;
@@ -61,6 +66,9 @@ static void describe(TomlReader& a, AxisRecipe& axis) {
       axis.scale != AxisRecipe::Scale::log || ((!axis.min || *axis.min > 0) && (!axis.max || *axis.max > 0)),
       "scale", "a log axis has min and max > 0");
   a.value("factor", axis.factor);
+  a.value("names", axis.names);
+  a.check(axis.names.empty() || axis.scale != AxisRecipe::Scale::log, "names", "not on a log axis");
+  check_texts(a, "names", axis.names);
 }
 
 static void describe(TomlReader& a, Reference& reference) {
@@ -104,6 +112,7 @@ static void describe(TomlReader& a, InsetRecipe& inset) {
 
 static void describe(TomlReader& a, PanelRecipe& panel) {
   a.value("label", panel.label);
+  a.value("tag", panel.tag);
   read_text(a, "title", panel.title);
   a.section("x", panel.x);
   a.section("y", panel.y);

@@ -48,6 +48,7 @@ struct AxisRecipe {
   std::optional<std::string> label;
   enum class Scale { automatic, linear, log } scale = Scale::automatic;
   std::optional<double> min, max, factor;
+  std::vector<std::string> names;
 };
 
 enum class KindChoice { automatic, line, markers, both, band, steps, bars, dots, off };
@@ -69,6 +70,7 @@ struct InsetRecipe {
 
 struct PanelRecipe {
   std::string label, title;
+  std::optional<std::string> tag;  ///< stands for the label in the picture
   AxisRecipe x, y;
   Place legend = Place::automatic;
   std::vector<Reference> references;

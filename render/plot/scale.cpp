@@ -123,6 +123,18 @@ class Ruler {
   Ruler(const Span& span, double length, double size, bool horizontal)
       : span_(span), length_(length), size_(size), horizontal_(horizontal) {}
 
+  /// The names at 1, 2, 3 … InputError if they touch.
+  Ticks named(const std::vector<std::string>& names) const {
+    Ticks ticks;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const double at = static_cast<double>(i + 1);
+      if (at >= span_.low && at <= span_.high) ticks.major.push_back({at, names[i]});
+    }
+    if (!fits(ticks.major, narrow_gap()))
+      throw InputError(
+          fmt::format("the axis is too short for its {} names: \"{}\" …", names.size(), names[0]));
+    return ticks;
+  }
   Ticks ticks() const { return span_.scale == Scale::linear ? linear(true) : logarithmic(); }
 
  private:
@@ -259,6 +271,11 @@ Span span_of(const Axis& axis, const Extent& extent) {
   }
   if (axis.min && axis.max && !(*axis.min < *axis.max))
     wrong(fmt::format("min {} must be below max {}", *axis.min, *axis.max));
+  if (!axis.names.empty()) {
+    if (axis.scale == Scale::log) wrong("a log axis has no names");
+    return {axis.min.value_or(0.5), axis.max.value_or(static_cast<double>(axis.names.size()) + 0.5),
+            Scale::linear};
+  }
   Extent data = extent;
   // data that lie wholly beyond the one given limit leave the other to choose
   if (axis.min && data.high <= *axis.min)
@@ -269,6 +286,11 @@ Span span_of(const Axis& axis, const Extent& extent) {
 
 Ticks ticks_for(const Span& span, double length, double size, bool horizontal) {
   return Ruler(span, length, size, horizontal).ticks();
+}
+
+Ticks ticks_for(const Axis& axis, const Span& span, double length, double size, bool horizontal) {
+  if (axis.names.empty()) return ticks_for(span, length, size, horizontal);
+  return Ruler(span, length, size, horizontal).named(axis.names);
 }
 
 }  // namespace chute::plot

@@ -46,5 +46,7 @@ struct Ticks {
 /// Ticks for an axis `length` points long. Labels (set at `size` points) neither touch nor crowd: along x
 /// their widths count, along y their heights. One axis, one number of decimals.
 Ticks ticks_for(const Span& span, double length, double size, bool horizontal);
+/// The same, or the axis' names where it has some. InputError if these do not fit side by side.
+Ticks ticks_for(const Axis& axis, const Span& span, double length, double size, bool horizontal);
 
 }  // namespace chute::plot

@@ -103,40 +103,44 @@ void draw_reference(Painter& painter, const Frame& frame, const Reference& refer
 
 namespace {
 
-/// Sets the label along the line where it covers no data, as far right as can be; at the right end if there
-/// is no such place.
-void label_line(Painter& painter, const Frame& frame, const Reference& reference) {
-  const auto points = reference_points(frame, reference);
-  Point a, b;  // the last stretch of the line inside the frame
-  bool inside = false;
-  for (std::size_t i = points.size() - 1; i > 0 && !inside; --i) {
-    a = points[i - 1];
-    b = points[i];
-    inside = std::isfinite(a.x + a.y + b.x + b.y) && cut_segment(a, b, frame.rect);
+/// Where a label along a line may end, from right to left, and how the line runs there.
+struct Anchor {
+  Point at, along;
+};
+std::vector<Anchor> anchors(const std::vector<Point>& points, const Rect& frame) {
+  constexpr double step = 3, first = 8;  // from the frame
+  std::vector<Anchor> found;
+  double to_next = first;
+  for (std::size_t i = points.size() - 1; i > 0; --i) {
+    Point a = points[i - 1], b = points[i];
+    if (!std::isfinite(a.x + a.y + b.x + b.y) || !cut_segment(a, b, frame)) continue;
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const Point along = (1 / length) * (b - a);
+    for (; to_next < length; to_next += step) found.push_back({b - to_next * along, along});
+    to_next -= length;
   }
-  if (!inside) return;
+  return found;
+}
+
+/// Sets the label along the line, as far right as can be: where it covers nothing, or at least no other text.
+/// InputError if there is no such place.
+void label_line(Painter& painter, const Frame& frame, const Reference& reference) {
+  const auto ends = anchors(reference_points(frame, reference), frame.rect);
+  if (ends.empty()) return;  // the line lies outside
   const auto text = set_text(reference.label, painter.look.legend_size);
-  const double angle = std::atan2(a.y - b.y, b.x - a.x), gap = 3;
-  const Point along{std::cos(angle), -std::sin(angle)}, up{-std::sin(angle), -std::cos(angle)};
-  const auto box_at = [&](Point at) {
-    Rect box = Rect::nothing();
-    for (double s : {0.0, text.width})
-      for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
-    return box;
-  };
-  const Point end = b - (text.width + 8) * along;
-  const double above = gap + text.descent, below = -gap - text.ascent;
-  Point best = end + above * up;
-  bool found = false;
-  for (double back = 0; back < std::hypot(b.x - a.x, b.y - a.y) - text.width - 16 && !found; back += 3)
-    for (double side : {above, below}) {
-      const Point at = end - back * along + side * up;
-      if (found || !painter.occupied.free(box_at(at))) continue;
-      best = at;
-      found = true;
-    }
-  draw_text(painter.list, text, best, painter.look.ink, angle);
-  painter.occupied.mark(box_at(best));
+  constexpr double gap = 3;
+  for (const bool over_ink : {false, true})
+    for (const auto& [end, along] : ends)
+      for (double side : {gap + text.descent, -gap - text.ascent}) {
+        const Point up{along.y, -along.x}, at = end - text.width * along + side * up;
+        Rect box = Rect::nothing();
+        for (double s : {0.0, text.width})
+          for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
+        if (over_ink ? !painter.occupied.clear_of_texts(box) : !painter.occupied.free(box)) continue;
+        draw_text(painter.list, text, at, painter.look.ink, std::atan2(-along.y, along.x));
+        return painter.occupied.mark_text(box);
+      }
+  throw InputError(fmt::format("there is no room along its line for the label \"{}\"", reference.label));
 }
 
 }  // namespace
@@ -154,9 +158,16 @@ void draw_note(Painter& painter, const Frame& frame, const Note& note) {
                                      : frame.at(note.x, note.y);
   if (!frame.rect.contains(middle))
     throw InputError(fmt::format("note \"{}\" lies outside its panel", note.text));
-  const Point at{middle.x - text.width / 2, middle.y + (text.ascent - text.descent) / 2};
+  const Rect room = frame.rect.grown(-2);
+  const double height = text.ascent + text.descent;
+  if (text.width > room.width() || height > room.height())
+    throw InputError(fmt::format("note \"{}\" is larger than its panel", note.text));
+  // near the frame it moves in
+  const double left = std::clamp(middle.x - text.width / 2, room.left, room.right - text.width);
+  const double top = std::clamp(middle.y - height / 2, room.top, room.bottom - height);
+  const Point at{left, top + text.ascent};
   draw_text(painter.list, text, at, painter.look.ink);
-  painter.occupied.mark(text.box_at(at));
+  painter.occupied.mark_text(text.box_at(at));
 }
 
 }  // namespace chute::plot

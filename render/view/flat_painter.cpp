@@ -12,7 +12,6 @@ namespace {
 using plot::Point;
 using plot::Rect;
 
-constexpr double copy_reach = 0.16;  // how far copies go beyond the periodic ends, in periods
 constexpr double copy_alpha = 0.5;
 
 /// From the files' plane to pixels: turned if the picture is tilted, then scaled.
@@ -88,22 +87,14 @@ class FlatPainter : public Painter {
         }
       return box;
     }
-    auto box = survey.turned;
-    if (copies()) {
-      const Point reach = map_.turned(copy_reach * period(), 0);
-      box[0] -= std::abs(reach.x), box[1] += std::abs(reach.x);
-      box[2] -= std::abs(reach.y), box[3] += std::abs(reach.y);
-    }
-    return box;
+    return survey.turned;
   }
 
   void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
     add_disc(frame, i, color, 0, 1);
     if (!copies()) return;
     for (const double shift : {-period(), period()}) {
-      const double x = frame.x[i] + shift;
-      const double beyond =
-          std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
+      const double beyond = beyond_domain(studio_.survey.domain, frame.x[i] + shift);
       if (beyond < 1) add_disc(frame, i, color, shift, copy_alpha * std::min(1.0, 1.15 * (1 - beyond)));
     }
   }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
-constexpr int drawing_version = 1;
+constexpr int drawing_version = 2;
 constexpr const char* drawn_from = "Drawn-From";
 
 /// FNV-1a over texts and files: tells whether a picture is drawn from the same.

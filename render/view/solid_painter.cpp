@@ -11,8 +11,6 @@
 namespace chute::view {
 namespace {
 
-constexpr double copy_reach = 0.16;
-
 class SolidPainter : public Painter {
  public:
   SolidPainter(const Studio& studio, std::unique_ptr<Furniture>& furniture)
@@ -54,8 +52,10 @@ class SolidPainter : public Painter {
       axis[c] = 1;
       directions.axes[c] = eye_.seen_direction(axis);
     }
-    furniture->stand(scale_bar(furniture->layout().em), directions,
-                     studio_.arrow_length() * eye_.focal / eye_.distance);
+    ScaleBar scale = scale_bar(furniture->layout().em);
+    shown_ = furniture->layout().scene;
+    if (zoomed() && !(shown_.contains(scale.from) && shown_.contains(scale.to))) scale.to = scale.from;
+    furniture->stand(scale, directions, studio_.arrow_length() * eye_.focal / eye_.distance);
   }
 
   void paint(const FrameData& data, image::Image& into) override {
@@ -68,6 +68,7 @@ class SolidPainter : public Painter {
     if (studio_.style.arrows) add_arrows(frame);
     // rods that end inside balls do not hide them
     scene_.draw(visible(balls_, eye_, studio_.style.width, studio_.style.height), rods_, into);
+    if (zoomed() && studio_.style.furniture) keep_inside(into);
   }
 
  private:
@@ -76,11 +77,26 @@ class SolidPainter : public Painter {
   SolidScene scene_;
   Eye eye_;
   std::array<double, 6> box_{};
+  plot::Rect shown_;  ///< pixels
   std::vector<Ball> balls_;
   std::vector<Rod> rods_;
 
   double period() const { return studio_.survey.domain[1] - studio_.survey.domain[0]; }
   bool copies() const { return studio_.style.copies && period() > 0; }
+
+  /// Grains from near by fill the picture, and would run under the texts beside the scene.
+  bool zoomed() const { return studio_.style.camera.zoom > 1; }
+  void keep_inside(image::Image& picture) const {
+    const auto& p = studio_.palette;
+    const auto byte = [&](double v) {
+      return static_cast<std::uint8_t>(std::lround(255 * v * p.ground_alpha));
+    };
+    const std::array<std::uint8_t, 4> ground{byte(p.ground.r), byte(p.ground.g), byte(p.ground.b), byte(1)};
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x)
+        if (!shown_.contains(plot::Point{x + 0.5, y + 0.5}))
+          std::copy(ground.begin(), ground.end(), picture.pixel(x, y));
+  }
 
   /// Along a lower edge of the box that is near to the eye, a little outside: lengths are true there. Of the
   /// two, the one that is seen less from its end.
@@ -115,8 +131,7 @@ class SolidPainter : public Painter {
     if (!copies()) return;
     for (const double shift : {-period(), period()}) {
       const double x = frame.x[i] + shift;
-      const double beyond =
-          std::max(studio_.survey.domain[0] - x, x - studio_.survey.domain[1]) / (copy_reach * period());
+      const double beyond = beyond_domain(studio_.survey.domain, x);
       if (beyond < 1)
         balls_.push_back({{x, frame.y[i], frame.z[i]},
                           r,

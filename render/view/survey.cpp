@@ -60,6 +60,10 @@ double Surveyor::Sample::quantile(double q) {
   return values[static_cast<std::size_t>(k)];
 }
 
+double beyond_domain(const std::array<double, 6>& domain, double x) {
+  return std::max(domain[0] - x, x - domain[1]) / (copy_reach * (domain[1] - domain[0]));
+}
+
 Surveyor::Surveyor(const FrameStyle& style) : style_(style) {
   style_.check();
   found_.bounds = {infinity, -infinity, infinity, -infinity, infinity, -infinity};
@@ -84,6 +88,8 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
   s.times.push_back(time ? *time : frame.time.value_or(static_cast<double>(s.times.size())));
 
   const double turn = style_.tilt ? s.slope : 0, cosine = std::cos(turn), sine = std::sin(turn);
+  const double period = style_.copies ? s.domain[1] - s.domain[0] : 0;
+  const auto shifts = period > 0 ? std::vector<double>{0, -period, period} : std::vector<double>{0};
   const auto values = s.field.values(frame);
   const auto* velocity = frame.find(fields::velocity.name);
   bool any_moving = false, any_fixed = false;
@@ -94,8 +100,12 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
       s.bounds[2 * c + 1] = std::max(s.bounds[2 * c + 1], position[c] + r);
     }
     const double u = cosine * frame.x[i] + sine * frame.y[i], v = cosine * frame.y[i] - sine * frame.x[i];
-    s.turned = {std::min(s.turned[0], u - r), std::max(s.turned[1], u + r), std::min(s.turned[2], v - r),
-                std::max(s.turned[3], v + r)};
+    for (const double shift : shifts) {
+      if (shift != 0 && beyond_domain(s.domain, frame.x[i] + shift) >= 1) continue;
+      const double a = u + cosine * shift, b = v - sine * shift;
+      s.turned = {std::min(s.turned[0], a - r), std::max(s.turned[1], a + r), std::min(s.turned[2], b - r),
+                  std::max(s.turned[3], b + r)};
+    }
     const bool fixed = frame.is_fixed(i);
     (fixed ? any_fixed : any_moving) = true;
     ++all_, all_diameters_ += 2 * r;

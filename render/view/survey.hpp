@@ -20,7 +20,8 @@ struct Survey {
   int up_axis = 1;   ///< the incline's normal: 1 (y) in the plane, else where gravity points most, or z
   double slope = 0;  ///< radians: gravity is turned that much from the normal, towards +x
   std::array<double, 6> bounds{};  ///< of all grains, radii included: x0 x1 y0 y1 z0 z1, in the files' frame
-  std::array<double, 4> turned{};  ///< 2D: the same as seen in the picture (turned by the slope if tilted)
+  std::array<double, 4> turned{};  ///< 2D: the same as seen in the picture (turned by the slope if tilted;
+                                   ///< periodic copies included if they are drawn)
   std::array<double, 6> domain{};
   std::array<double, 3> gravity{};
   std::string units;
@@ -40,6 +41,11 @@ struct Survey {
   /// All of the above that decides pixels but the series, as text.
   std::string describe() const;
 };
+
+/// How far copies are drawn beyond the periodic ends, in periods.
+inline constexpr double copy_reach = 0.16;
+/// How far outside `domain` in x, as a share of copy_reach; a copy is drawn if it is below 1.
+double beyond_domain(const std::array<double, 6>& domain, double x);
 
 /// Reads every frame once. `tell` hears how many are done. InputError as read_frame; also if the field is
 /// missing.

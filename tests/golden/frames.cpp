@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "golden.hpp"
@@ -7,6 +8,7 @@
 #include "read/grain_frame.hpp"
 #include "view/frame_renderer.hpp"
 #include "view/survey.hpp"
+#include "view/time_series.hpp"
 
 namespace chute::golden {
 namespace {
@@ -17,6 +19,7 @@ struct Subject {
   FrameStyle style;
   read::GrainFrame frame;
   std::vector<read::Contact> contacts;
+  std::vector<read::GrainFrame> earlier;  ///< for trails, the oldest first
   double time = 0;
   Survey survey;
 };
@@ -25,12 +28,36 @@ std::string data(const std::string& name) {
   return std::string(CHUTE_SOURCE_DIR) + "/golden/data/" + name + ".vtp";
 }
 
+/// A contact wherever two grains touch, the stronger the deeper they overlap.
+std::vector<read::Contact> touching(const read::GrainFrame& f) {
+  std::vector<read::Contact> found;
+  for (std::size_t i = 0; i < f.size(); ++i)
+    for (std::size_t k = i + 1; k < f.size(); ++k) {
+      const double distance = std::hypot(f.x[i] - f.x[k], f.y[i] - f.y[k], f.z[i] - f.z[k]);
+      const double deep = f.radius[i] + f.radius[k] - distance;
+      if (deep > 0) found.push_back({{f.x[i], f.y[i], f.z[i]}, {f.x[k], f.y[k], f.z[k]}, deep});
+    }
+  return found;
+}
+
+/// Where grains would be after `time` in free flight.
+read::GrainFrame moved(read::GrainFrame frame, double time) {
+  const auto* velocity = frame.find("velocity");
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    frame.x[i] += time * velocity->at(i, 0), frame.y[i] += time * velocity->at(i, 1);
+    frame.z[i] += time * velocity->at(i, 2);
+  }
+  return frame;
+}
+
 Subject subject(const FrameStyle& style, const std::string& file) {
   Subject s;
   s.style = style;
   s.frame = read::read_frame(data(file));
   s.time = s.frame.time.value_or(0);
-  if (style.chains) s.contacts = read::read_contacts(data("frame-contacts"));
+  if (style.chains)
+    s.contacts = file == "frame-discs" ? read::read_contacts(data("frame-contacts")) : touching(s.frame);
+  for (int back = style.trail; back > 0; --back) s.earlier.push_back(moved(s.frame, -0.12 * back));
   Surveyor surveyor(style);
   surveyor.see(s.frame);
   for (const auto& contact : s.contacts) surveyor.see_force(contact.force);
@@ -39,20 +66,29 @@ Subject subject(const FrameStyle& style, const std::string& file) {
 }
 
 image::Image draw(const Subject& s) {
-  return FrameRenderer(s.style, s.survey).draw(s.frame, s.time, s.contacts);
+  std::vector<const read::GrainFrame*> earlier;
+  for (const auto& frame : s.earlier) earlier.push_back(&frame);
+  return FrameRenderer(s.style, s.survey).draw(s.frame, s.time, s.contacts, earlier);
 }
 
 using Change = std::function<void(Subject&)>;
 
-Golden golden_of(const std::string& name, const FrameStyle& style, const std::string& file,
-                 const std::vector<std::pair<std::string, Change>>& changes) {
+/// `prepare` adds to the subject what no file holds.
+Golden golden_of(
+    const std::string& name, const FrameStyle& style, const std::string& file,
+    const std::vector<std::pair<std::string, Change>>& changes, const Change& prepare = [](Subject&) {}) {
   Golden golden;
   golden.name = name;
   golden.made_by = fmt::format("view::FrameRenderer of data/{}.vtp, {}", file, style.describe());
-  golden.draw = [=] { return draw(subject(style, file)); };
+  const auto prepared = [=] {
+    auto s = subject(style, file);
+    prepare(s);
+    return s;
+  };
+  golden.draw = [=] { return draw(prepared()); };
   for (const auto& [what, change] : changes)
     golden.mutants.push_back({what, [=, change = change] {
-                                auto s = subject(style, file);
+                                auto s = prepared();
                                 change(s);
                                 return draw(s);
                               }});
@@ -78,11 +114,26 @@ void steepen(Subject& s) {
   s.survey.gravity = {std::sin(s.survey.slope), -std::cos(s.survey.slope), 0};
 }
 void turn_camera(Subject& s) { s.style.camera.azimuth += 0.1; }
+/// The strongest of those that lie high, which nothing hides in space.
+void remove_upper_chain(Subject& s) {
+  double top = 0;
+  for (const auto& c : s.contacts) top = std::max(top, c.from[2]);
+  const auto seen = [&](const read::Contact& c) {
+    return std::min(c.from[2], c.to[2]) > 0.8 * top ? c.force : 0;
+  };
+  s.contacts.erase(std::max_element(s.contacts.begin(), s.contacts.end(),
+                                    [&](const auto& a, const auto& b) { return seen(a) < seen(b); }));
+}
 void remove_chain(Subject& s) {
   std::size_t strong = 0;
   for (std::size_t i = 0; i < s.contacts.size(); ++i)
     if (s.contacts[i].force > s.contacts[strong].force) strong = i;
   s.contacts.erase(s.contacts.begin() + static_cast<std::ptrdiff_t>(strong));
+}
+void forget_oldest(Subject& s) { s.earlier.erase(s.earlier.begin()); }
+void add_series(Subject& s) {
+  s.survey.series =
+      read_time_series(std::string(CHUTE_SOURCE_DIR) + "/golden/data/frame-series.csv", {"v_x"});
 }
 void spin(Subject& s) {
   for (auto& array : s.frame.arrays)
@@ -132,6 +183,42 @@ std::vector<Golden> frame_goldens() {
       "frame-occlusion", style, "frame-spheres",
       {{"occlusion off", [](Subject& s) { s.style.occlusion = false; }}, {"one grain missing", remove_one}}));
   all.back().tolerance = image::occlusion;
+  style = small();
+  style.tilt = true, style.color = "none";
+  all.push_back(
+      golden_of("frame-plot", style, "frame-discs",
+                {{"half a time unit later", [](Subject& s) { s.time += 0.5; }},
+                 {"one value 2 % higher", [](Subject& s) { s.survey.series.columns[0].values[4] *= 1.02; }},
+                 {"another quantity", [](Subject& s) { s.survey.series.columns[0].name = "v_y"; }}},
+                add_series));
+  style = small();
+  style.trail = 12, style.spin = false, style.map = "cividis", style.background = Background::dark;
+  all.push_back(golden_of("frame-trails", style, "frame-discs",
+                          {{"trails one frame shorter", forget_oldest}, {"radius 1 % larger", grow}}));
+  style = small();
+  style.camera.window = {4, 12, 0, 5}, style.range = {0.5, 1.5}, style.color = "velocity:x",
+  style.map = "batlow_r";
+  all.push_back(golden_of("frame-window", style, "frame-discs",
+                          {{"window 1 % wider", [](Subject& s) { (*s.style.camera.window)[1] += 0.08; }},
+                           {"colour range 2 % wider", widen},
+                           {"no spin marks", [](Subject& s) { s.style.spin = false; }}}));
+  style = small();
+  style.furniture = false, style.copies = true, style.color = "radius";
+  all.push_back(golden_of("frame-bare", style, "frame-discs",
+                          {{"without copies", [](Subject& s) { s.style.copies = false; }},
+                           {"with colour bar", [](Subject& s) { s.style.furniture = true; }}}));
+  style = small();
+  style.chains = true, style.background = Background::transparent, style.camera.azimuth = 60;
+  style.camera.zoom = 2;
+  all.push_back(golden_of(
+      "frame-network", style, "frame-spheres",
+      {{"one force chain missing", remove_upper_chain}, {"camera turned by 0.1 degrees", turn_camera}}));
+  style = small();
+  style.trail = 6, style.arrows = true, style.camera.elevation = 35;
+  style.camera.zoom = 1.3;
+  all.push_back(golden_of("frame-flight", style, "frame-spheres",
+                          {{"without trails", [](Subject& s) { s.style.trail = 0, s.earlier.clear(); }},
+                           {"without arrows", [](Subject& s) { s.style.arrows = false; }}}));
   return all;
 }
 

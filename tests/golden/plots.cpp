@@ -132,6 +132,19 @@ std::vector<Golden> plot_goldens() {
                                f.panels[1].series[1].dash = 2;
                                f.panels[1].series[2].dash = 1;
                              }}}),
+      golden_of("scatter",
+                {{"larger dots for some", [](Figure& f) { f.panels[0].series[1].kind = Kind::markers; }},
+                 {"one series left out", [](Figure& f) { f.panels[0].series.pop_back(); }}}),
+      golden_of("slides", {{"type of a journal", [](Figure& f) { f.style = Style::journal; }},
+                           {"error bars 10 % longer", lengthen_errors}}),
+      golden_of("names", {{"two names exchanged",
+                           [](Figure& f) { std::swap(f.panels[1].x.names[2], f.panels[1].x.names[3]); }},
+                          {"one digit of a title", [](Figure& f) { f.panels[1].title = "$F_p=0.3\\,mg$"; }}}),
+      golden_of("decay", {{"linear for log", [](Figure& f) { f.panels[0].y.scale = Scale::linear; }},
+                          {"band 10 % wider", lengthen_errors}}),
+      golden_of("shared", {{"ranges of their own", [](Figure& f) { f.share_y = false; }},
+                           {"an axis left out", [](Figure& f) { f.panels[1].references.pop_back(); }},
+                           {"a note moved", [](Figure& f) { f.panels[0].notes[0].y -= 0.05; }}}),
       golden_of("steps", {{"one series left out", [](Figure& f) { f.panels[0].series.pop_back(); }},
                           {"linear for log", [](Figure& f) { f.panels[0].y.scale = Scale::log; }}}),
   };

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "common/error.hpp"
 #include "plot/layout.hpp"
@@ -71,6 +72,28 @@ Series random_series(Dice& dice, const Panel& panel, int number) {
   return s;
 }
 
+/// A line across the panel, with a label.
+Reference random_reference(Dice& dice, const Panel& panel) {
+  Reference r;
+  r.kind = dice.below(2) ? Reference::Kind::horizontal : Reference::Kind::vertical;
+  const auto& axis = r.kind == Reference::Kind::horizontal ? panel.y : panel.x;
+  r.at = axis.min && axis.max ? *axis.min + dice.uniform() * (*axis.max - *axis.min) : dice.uniform();
+  if (dice.below(2)) r.label = "$v_0$";
+  return r;
+}
+
+Inset random_inset(Dice& dice) {
+  Inset inset;
+  inset.plot.x.label = "$t$ (s)", inset.plot.y.label = "$v_x$";
+  Series s;
+  s.name = "e_n=0.1";
+  for (int i = 0; i < 9; ++i) s.x.push_back(i), s.y.push_back(dice.uniform());
+  inset.plot.series = {s};
+  inset.place = static_cast<Place>(dice.below(5));
+  inset.width = inset.height = 0.45;
+  return inset;
+}
+
 Figure random_figure(Dice& dice) {
   Figure figure;
   const int panels = 1 + dice.below(4);
@@ -85,6 +108,12 @@ Figure random_figure(Dice& dice) {
     if (dice.below(4)) panel.label = std::string(1, static_cast<char>('a' + p));
     if (titles) panel.title = "row, $\\epsilon=0$";
     panel.x = random_axis(dice), panel.y = random_axis(dice);
+    if (dice.below(3) == 0)
+      panel.notes = {{"region $B$, $\\theta_{BC}$", dice.uniform(), dice.uniform(), true}};
+    if (dice.below(3) == 0) panel.references = {random_reference(dice, panel)};
+    if (dice.below(4) == 0 && panels < 3 && panel.notes.empty() && panel.references.empty())
+      panel.insets = {random_inset(dice)};
+    if (dice.below(8) == 0) panel.legend = static_cast<Place>(1 + dice.below(5));
     const int series = 1 + dice.below(6);
     for (int i = 0; i < series; ++i) panel.series.push_back(random_series(dice, panel, i));
     figure.panels.push_back(panel);
@@ -93,8 +122,8 @@ Figure random_figure(Dice& dice) {
 }
 
 const char* name_of(Box::Kind kind) {
-  static const char* names[] = {"frame", "tick label",  "axis label", "factor",
-                                "title", "panel label", "legend",     "inset"};
+  static const char* names[] = {"frame",       "tick label", "axis label", "factor", "title",
+                                "panel label", "legend",     "inset",      "note"};
   return names[static_cast<int>(kind)];
 }
 
@@ -114,9 +143,10 @@ std::string fault(const Layout& layout) {
       if (!a.rect.overlaps(b.rect)) continue;
       const auto inside = [](const Box& box) {
         return box.kind == Box::Kind::legend || box.kind == Box::Kind::panel_label ||
-               box.kind == Box::Kind::inset;
+               box.kind == Box::Kind::inset || box.kind == Box::Kind::note;
       };
-      if (a.kind == Box::Kind::frame && inside(b) && a.rect.contains(b.rect)) continue;
+      const auto& [frame, other] = a.kind == Box::Kind::frame ? std::tie(a, b) : std::tie(b, a);
+      if (frame.kind == Box::Kind::frame && inside(other) && frame.rect.contains(other.rect)) continue;
       return what + " overlaps " + name_of(b.kind) + " \"" + b.text + "\"" + " panels " +
              std::to_string(a.panel) + " " + std::to_string(b.panel) + " " + std::to_string(a.rect.left) +
              " " + std::to_string(a.rect.top) + " " + std::to_string(a.rect.right) + " " +
@@ -302,9 +332,9 @@ TEST_CASE("what cannot be laid out is refused in one line") {
   };
   panel.x.min = 2, panel.x.max = 1;
   REQUIRE(message() == "fig.toml: axis \"\": min 2 must be below max 1");
-  panel.x = {"$x$", Scale::log, -1, {}};
+  panel.x = {"$x$", Scale::log, -1, {}, {}};
   REQUIRE(message() == "fig.toml: axis \"$x$\": -1 is no limit of a log axis, must be > 0");
-  panel.x = {std::string(200, 'm'), Scale::linear, {}, {}};
+  panel.x = {std::string(200, 'm'), Scale::linear, {}, {}, {}};
   REQUIRE(message().find("fig.toml: label \"mmm") == 0);
   panel.x = {};
   panel.series = {wave("a", 1)};

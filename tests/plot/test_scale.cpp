@@ -85,6 +85,6 @@ TEST_CASE("ranges leave room for markers, start at zero when near it, and stand 
   }
   const auto empty = span_of({}, {});
   REQUIRE(empty.low < empty.high);
-  const auto log = span_of({"", Scale::log, {}, {}}, {});
+  const auto log = span_of({"", Scale::log, {}, {}, {}}, {});
   REQUIRE((log.low > 0 && log.low < log.high));
 }
