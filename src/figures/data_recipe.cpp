@@ -34,11 +34,12 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.value("scene", recipe.scene);
   a.value("compute", recipe.compute);
   a.value("table", recipe.table);
-  const int sources = recipe.scene.has_value() + recipe.compute.has_value() + recipe.table.has_value();
+  const int sources =
+      (recipe.scene.has_value() || recipe.compute.has_value()) + recipe.table.has_value();
   a.check(sources <= 1, "scene",
-          "give one of scene (simulate), compute (a built-in computation), table (a CSV file), or curves "
-          "with runs");
-  if (recipe.compute || recipe.table) return;
+          "give one of scene (simulate; perhaps with compute, a built-in computation, beside it), table (a CSV "
+          "file), or curves with runs");
+  if (!recipe.scene && (recipe.compute || recipe.table)) return;
   a.value("set", recipe.set);
   a.value("quick", recipe.quick);
   a.value("seeds", recipe.seeds, between(1, 10000));
@@ -47,7 +48,10 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.required("y", recipe.y);
   a.value("notes", recipe.notes);
   a.sections("curve", recipe.curves);
-  a.check(!recipe.curves.empty(), "curve", "a figure needs at least one [[data.curve]]");
+  a.sections("sweep", recipe.sweeps);
+  a.check(!recipe.curves.empty() || !recipe.sweeps.empty(), "curve",
+          "a figure needs at least one [[data.curve]] or [[data.sweep]]");
+  a.check(recipe.sweeps.empty() || recipe.scene, "sweep", "needs a scene to change");
   recipe.runs = !recipe.scene;
   for (const auto& curve : recipe.curves)
     a.check(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/toml_reader.hpp"
+#include "figures/sweep_curves.hpp"
 
 namespace chute::figures {
 
@@ -47,6 +48,7 @@ struct DataRecipe {
   std::string x, y;                         ///< what x and y are, with units: comments of the CSV
   std::vector<std::string> notes;           ///< further comments
   std::vector<Curve> curves;
+  std::vector<SweepCurve> sweeps;  ///< [[data.sweep]]: curves made from many runs
 };
 
 void describe(TomlReader& a, DataRecipe& recipe);
