@@ -95,16 +95,21 @@ figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, cons
                                 const figures::FigureContext& context,
                                 const std::function<bool(double)>& progress) {
   if (recipe.data.table) return read_rows(file.parent_path() / *recipe.data.table);
+  figures::FigureTable table;
   if (recipe.data.compute || recipe.data.experiment) {
-    auto table = recipe.data.compute
-                     ? find_computation(*recipe.data.compute, file)(context)
-                     : experiments::make_table(*recipe.data.experiment, file, context, progress);
-    table.comments.push_back(
-        fmt::format("made by chute {} ({}){}", run::version, run::commit,
-                    context.quick ? "; quick: a cheaper computation than the full figure's" : ""));
-    return table;
+    table = recipe.data.compute ? find_computation(*recipe.data.compute, file)(context)
+                                : experiments::make_table(*recipe.data.experiment, file, context, progress);
+    if (!recipe.data.scene) {
+      table.comments.push_back(
+          fmt::format("made by chute {} ({}){}", run::version, run::commit,
+                      context.quick ? "; quick: a cheaper computation than the full figure's" : ""));
+      return table;
+    }
   }
-  return figures::simulate(recipe.data, file, directory / "runs", context, command_line(), progress);
+  auto simulated =
+      figures::simulate(recipe.data, file, directory / "runs", context, command_line(), progress);
+  simulated.rows.insert(simulated.rows.begin(), table.rows.begin(), table.rows.end());
+  return simulated;
 }
 
 std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {

@@ -61,12 +61,12 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.value("compute", recipe.compute);
   a.value("table", recipe.table);
   a.section("experiment", recipe.experiment);
-  const int sources = recipe.scene.has_value() + recipe.compute.has_value() + recipe.table.has_value() +
+  const int sources = (recipe.scene.has_value() || recipe.compute.has_value()) + recipe.table.has_value() +
                       recipe.experiment.has_value();
   a.check(sources <= 1, "scene",
-          "give one of scene (simulate), experiment, compute (a built-in computation), table (a CSV file), or "
-          "curves with runs");
-  if (recipe.compute || recipe.table || recipe.experiment) return;
+          "give one of scene (simulate; perhaps with compute, a built-in computation, beside it), experiment, table "
+          "(a CSV file), or curves with runs");
+  if (!recipe.scene && (recipe.compute || recipe.table || recipe.experiment)) return;
   a.value("set", recipe.set);
   a.value("quick", recipe.quick);
   a.value("seeds", recipe.seeds, between(1, 10000));
@@ -76,7 +76,10 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.value("notes", recipe.notes);
   a.sections("curve", recipe.curves);
   recipe.curves = point_by_point(recipe.curves);
-  a.check(!recipe.curves.empty(), "curve", "a figure needs at least one [[data.curve]]");
+  a.sections("sweep", recipe.sweeps);
+  a.check(!recipe.curves.empty() || !recipe.sweeps.empty(), "curve",
+          "a figure needs at least one [[data.curve]] or [[data.sweep]]");
+  a.check(recipe.sweeps.empty() || recipe.scene, "sweep", "needs a scene to change");
   recipe.runs = !recipe.scene;
   for (const auto& curve : recipe.curves)
     a.check(

@@ -8,6 +8,7 @@
 
 #include "common/toml_reader.hpp"
 #include "experiments/recipe.hpp"
+#include "figures/sweep_curves.hpp"
 
 namespace chute::figures {
 
@@ -57,6 +58,7 @@ struct DataRecipe {
   std::string x, y;                         ///< what x and y are, with units: comments of the CSV
   std::vector<std::string> notes;           ///< further comments
   std::vector<Curve> curves;
+  std::vector<SweepCurve> sweeps;  ///< [[data.sweep]]: curves made from many runs
 };
 
 void describe(TomlReader& a, DataRecipe& recipe);

@@ -4,13 +4,10 @@
 #include <fmt/ranges.h>
 #include <zlib.h>
 
-#include <atomic>
 #include <map>
-#include <mutex>
-#include <numeric>
-#include <thread>
 
 #include "common/error.hpp"
+#include "common/side_by_side.hpp"
 #include "figures/extract.hpp"
 #include "run/run.hpp"
 #include "run/version.hpp"
@@ -59,44 +56,16 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
 }
 
 /// Does the runs that are not there yet, up to `count` side by side. The first error stops all.
-void run_all(const std::vector<Job>& jobs, int count, const std::string& command_line,
-             const std::function<bool(double)>& progress) {
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> stop = false;
-  std::mutex guard;
-  std::vector<double> part(jobs.size());
-  std::exception_ptr error;
-
-  const auto work = [&] {
-    for (std::size_t k; !stop && (k = next++) < jobs.size();) {
-      try {
-        if (run::is_finished_run_of(jobs[k].directory, jobs[k].scene)) continue;
-        run::RunOptions options;
-        options.directory = jobs[k].directory;
-        options.existing = run::Existing::replace;
-        options.command_line = command_line;
-        options.progress = [&](double done) {
-          const std::lock_guard lock(guard);
-          part[k] = done;
-          if (!progress(std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(part.size())))
-            stop = true;
-          return !stop;
-        };
-        if (!run::run_scene(jobs[k].scene, options).finished) throw WorkError("stopped");
-        const std::lock_guard lock(guard);
-        part[k] = 1;
-      } catch (...) {
-        const std::lock_guard lock(guard);
-        if (!error) error = std::current_exception();
-        stop = true;
-      }
-    }
-  };
-  std::vector<std::jthread> workers;
-  for (int w = 1; w < count; ++w) workers.emplace_back(work);
-  work();
-  workers.clear();  // joins
-  if (error) std::rethrow_exception(error);
+void run_all(const std::vector<Job>& jobs, int count, const std::string& command_line, const Report& progress) {
+  side_by_side(jobs.size(), count, progress, [&](std::size_t k, const Report& report) {
+    if (run::is_finished_run_of(jobs[k].directory, jobs[k].scene)) return;
+    run::RunOptions options;
+    options.directory = jobs[k].directory;
+    options.existing = run::Existing::replace;
+    options.command_line = command_line;
+    options.progress = report;
+    if (!run::run_scene(jobs[k].scene, options).finished) throw WorkError("stopped");
+  });
 }
 
 }  // namespace
@@ -143,6 +112,16 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     for (const auto k : plan.of_curve[c]) runs.push_back(plan.jobs[k].directory);
     const auto rows = extract(recipe.curves[c], runs);
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+  }
+  if (!recipe.sweeps.empty()) {
+    auto set = recipe.set;
+    if (context.quick) set.insert(set.end(), recipe.quick.begin(), recipe.quick.end());
+    const auto made = sweep_curves(recipe.sweeps,
+                                   {{recipe_file.parent_path() / *recipe.scene, set},
+                                    seeds, context.quick, context.jobs, work / "points"},
+                                   progress);
+    table.comments.insert(table.comments.end(), made.comments.begin(), made.comments.end());
+    table.rows.insert(table.rows.end(), made.rows.begin(), made.rows.end());
   }
   return table;
 }

@@ -49,25 +49,30 @@ std::vector<measure::Flow> starts_of(const Base& base, std::int64_t seeds, const
   return starts;
 }
 
-Boundaries boundaries_of(const Base& base, const BoundarySpec& spec, std::int64_t seeds, const PointStore& store,
-                         const Report& progress, bool quick) {
-  std::vector<std::vector<std::string>> launches{{}};
-  if (!spec.velocities.empty()) {
-    launches.clear();
-    for (const double v : spec.velocities) launches.push_back({fmt::format("grains.start.velocity={}", v)});
+std::vector<Tally> launches_of(const Base& base, std::span<const double> velocities, std::int64_t seeds,
+                               const PointStore& store, const Report& progress) {
+  if (velocities.empty()) return {tally(starts_of(base, seeds, store, progress))};
+  std::vector<Tally> tallies;
+  for (const double v : velocities) {
+    const auto launched = base.with({fmt::format("grains.start.velocity={}", v)});
+    tallies.push_back(tally(starts_of(launched, seeds, store, [&](double part) {
+      return progress((static_cast<double>(tallies.size()) + part) / static_cast<double>(velocities.size()));
+    })));
   }
-  // How many points the bisection will need is not known; each one halves what is left of the bar.
+  return tallies;
+}
+
+Boundaries boundaries_of(const Base& base, const BoundarySpec& spec, Wanted wanted, std::int64_t seeds,
+                         const PointStore& store, const Report& progress) {
+  // How many points the bisection will need is not known: each one takes a part of what is left of the bar.
   double done = 0;
   const auto phase_at = [&](double value) {
-    std::vector<Tally> tallies;
-    for (const auto& launch : launches) {
-      auto changed = base.with({spec.axis.setting(value)}).with(launch);
-      tallies.push_back(tally(starts_of(changed, seeds, store, [&](double) { return progress(done); })));
-    }
+    const auto tallies = launches_of(base.with({spec.axis.setting(value)}), spec.velocities, seeds, store,
+                                     [&](double) { return progress(done); });
     done += (1 - done) / 20;
     return phase_of(tallies, spec.alike);
   };
-  return find_boundaries(spec.axis.points(quick), spec.tolerance, phase_at);
+  return find_boundaries(spec.axis.points(), spec.tolerance, wanted, phase_at);
 }
 
 }  // namespace chute::sweep

@@ -31,8 +31,12 @@ std::vector<Place> grid(const std::vector<Axis>& axes);
 std::vector<measure::Flow> starts_of(const Base& base, std::int64_t seeds, const PointStore& store,
                                      const Report& progress);
 
+/// What comes of a scene launched at each of several velocities (or, if there are none, as it says).
+std::vector<Tally> launches_of(const Base& base, std::span<const double> velocities, std::int64_t seeds,
+                               const PointStore& store, const Report& progress);
+
 /// Phase boundaries of a scene along the parameter of `spec`.
-Boundaries boundaries_of(const Base& base, const BoundarySpec& spec, std::int64_t seeds, const PointStore& store,
-                         const Report& progress, bool quick = false);
+Boundaries boundaries_of(const Base& base, const BoundarySpec& spec, Wanted wanted, std::int64_t seeds,
+                         const PointStore& store, const Report& progress);
 
 }  // namespace chute::sweep

@@ -20,11 +20,18 @@ Estimate mean_over(const std::vector<Estimate>& starts) {
   return {mean, std::sqrt(square / (n - 1) / n)};
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return NAN;
+double middle_of(std::vector<double>& values) {
   std::ranges::sort(values);
   const auto n = values.size();
   return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+Estimate median_of(std::vector<double> values) {
+  if (values.empty()) return {NAN, {}};
+  const double median = middle_of(values);
+  if (values.size() == 1) return {median, {}};
+  for (double& v : values) v = std::abs(v - median);
+  return {median, 1.2533 * 1.4826 * middle_of(values) / std::sqrt(static_cast<double>(values.size()))};
 }
 
 }  // namespace
@@ -46,6 +53,10 @@ Tally tally(std::span<const measure::Flow> starts) {
   made.omega = mean_over(omega);
   made.kinetic = mean_over(kinetic);
   made.median = median_of(std::move(moving));
+  for (const auto& start : starts) {
+    const bool settled = start.verdict == Verdict::steady || start.verdict == Verdict::unsettled;
+    made.together += settled && std::abs(start.v_x.mean - made.median.mean) <= 0.1 * std::abs(made.median.mean);
+  }
   return made;
 }
 
@@ -56,7 +67,7 @@ Phase phase_of(std::span<const Tally> launches, double alike) {
   const auto& slow = launches.front();
   if (2 * (slow.count(Verdict::accelerating) + slow.count(Verdict::runaway)) > slow.starts) return Phase::C;
   const bool same = std::ranges::all_of(launches, [&](const Tally& launch) {
-    return std::abs(launch.median - slow.median) <= alike * std::abs(slow.median);
+    return std::abs(launch.median.mean - slow.median.mean) <= alike * std::abs(slow.median.mean);
   });
   return same ? Phase::B : Phase::C;
 }
@@ -75,15 +86,16 @@ Estimate bisect(double low, double high, double tolerance, const std::function<b
 
 }  // namespace
 
-Boundaries find_boundaries(std::span<const double> values, double tolerance,
+Boundaries find_boundaries(std::span<const double> values, double tolerance, Wanted wanted,
                            const std::function<Phase(double)>& phase_at) {
   Boundaries found;
   std::optional<Phase> before;
-  for (std::size_t i = 0; i < values.size() && !found.BC; ++i) {
+  const auto complete = [&] { return wanted == Wanted::AB ? found.AB.has_value() : found.BC.has_value(); };
+  for (std::size_t i = 0; i < values.size() && !complete(); ++i) {
     const auto now = phase_at(values[i]);
     if (before == Phase::A && now != Phase::A && !found.AB)
       found.AB = bisect(values[i - 1], values[i], tolerance, [&](double x) { return phase_at(x) != Phase::A; });
-    if (before && before != Phase::C && now == Phase::C)
+    if (wanted == Wanted::both && before && before != Phase::C && now == Phase::C)
       found.BC = bisect(values[i - 1], values[i], tolerance, [&](double x) { return phase_at(x) == Phase::C; });
     before = now;
   }

@@ -57,7 +57,7 @@ class Sweep {
     return base_.with(places_[place].set).scene({fmt::format("seed={}", seed + 1)});
   }
   Boundaries boundaries_at(const Place& place, const Report& progress) const {
-    return boundaries_of(base_.with(place.set), *spec_.boundary, spec_.seeds, *store_, progress);
+    return boundaries_of(base_.with(place.set), *spec_.boundary, Wanted::both, spec_.seeds, *store_, progress);
   }
   fs::path file(const char* name) const { return options_.directory / name; }
 
@@ -101,7 +101,7 @@ class Sweep {
     io::Csv table(comments("one row per place of the grid: starts by verdict, and means over the steady ones with "
                            "their standard errors; v_x_median is over all that still move"),
                   columns({"starts", "stopped", "steady", "accelerating", "runaway", "unsettled", "v_x", "v_x_err",
-                           "v_x_median", "omega", "omega_err", "kinetic", "kinetic_err"}));
+                           "v_x_median", "v_x_median_err", "omega", "omega_err", "kinetic", "kinetic_err"}));
     auto each_columns = columns({"seed", "start", "from", "v_x", "v_x_err", "omega", "omega_err", "kinetic",
                                  "kinetic_err"});
     each_columns.insert(each_columns.begin(), "verdict");
@@ -122,7 +122,7 @@ class Sweep {
       const auto t = tally(starts);
       const auto n = [&](Verdict v) { return static_cast<double>(t.count(v)); };
       table.row(cells(places_[p], {double(t.starts), n(Verdict::stopped), n(Verdict::steady), n(Verdict::accelerating),
-                                   n(Verdict::runaway), n(Verdict::unsettled), t.v_x.mean, t.v_x.error, t.median,
+                                   n(Verdict::runaway), n(Verdict::unsettled), t.v_x.mean, t.v_x.error, t.median.mean, t.median.error,
                                    t.omega.mean, t.omega.error, t.kinetic.mean, t.kinetic.error}));
     }
     write_atomically(file("starts.csv"), each.text());

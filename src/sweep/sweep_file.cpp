@@ -1,6 +1,7 @@
 #include "sweep/sweep_file.hpp"
 
 #include "common/atomic_file.hpp"
+#include "common/error.hpp"
 #include "common/toml_reader.hpp"
 
 namespace chute::sweep {
@@ -20,6 +21,8 @@ void describe(Archive& a, Section& section) {
 SweepSpec read_sweep(const Base& base) {
   auto table = parse_toml(read_file(base.file), base.file.string());
   for (const auto& setting : base.set) set_by_path(table, setting);
+  if (!table.contains("sweep"))
+    throw InputError(base.file.string() + ": has no [sweep], which says what to change; a single run is: chute run");
   TomlReader reader(table, base.file.string());
   SweepSpec spec;
   Section section{spec};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 namespace chute::sweep {
 namespace {
@@ -56,7 +57,7 @@ std::vector<double> Axis::points(bool quick) const {
   std::vector<double> points;
   for (std::int64_t i = 0; i < n; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(n - 1);
-    points.push_back(i == n - 1 ? to : from + part * (to - from));
+    points.push_back(std::stod(fmt::format("{:.12g}", from + part * (to - from))));  // no 0.12000000000000001
   }
   return points;
 }

@@ -1,0 +1,137 @@
+#include "figures/sweep_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "figures/square_root_fit.hpp"
+
+namespace chute::figures {
+namespace {
+
+using namespace std::string_view_literals;
+using Column = SweepCurve::Column;
+constexpr std::array column_words{"v_x"sv, "omega"sv, "surface_speed"sv, "AB"sv, "BC"sv};
+
+bool is_boundary(const SweepCurve& curve) { return curve.column == Column::AB || curve.column == Column::BC; }
+
+/// One x of one curve: a job.
+struct Point {
+  const SweepCurve* curve;
+  double x;
+  std::optional<measure::Estimate> y;  ///< empty: no such value there
+  bool in_B = false;
+};
+
+/// A boundary along the inclination as an angle θ.
+measure::Estimate as_angle(const sweep::Axis& axis, const measure::Estimate& e) {
+  if (axis.key == "incline.sin") return {std::asin(e.mean), *e.error / std::sqrt(1 - e.mean * e.mean)};
+  const double unit = axis.unit == "deg" ? std::numbers::pi / 180 : 1;
+  return {e.mean * unit, *e.error * unit};
+}
+
+class Sweeps {
+ public:
+  explicit Sweeps(const SweepSetting& setting) : setting_(setting), store_(setting.points) {}
+
+  void measure(Point& point, const Report& progress) const {
+    const auto& curve = *point.curve;
+    const auto base = setting_.base.with(curve.set).with({curve.x.setting(point.x)});
+    if (is_boundary(curve)) {
+      const auto& spec = *curve.boundary;
+      const bool ab = curve.column == Column::AB;
+      const auto found = sweep::boundaries_of(base, spec, ab ? sweep::Wanted::AB : sweep::Wanted::both, setting_.seeds,
+                                              store_, progress);
+      if (const auto& angle = ab ? found.AB : found.BC) point.y = as_angle(spec.axis, *angle);
+      return;
+    }
+    const auto launches = sweep::launches_of(base, curve.velocities, setting_.seeds, store_, progress);
+    const auto& slow = launches.front();
+    if (2 * slow.together <= slow.starts) return;
+    point.in_B = sweep::phase_of(launches, curve.alike) == sweep::Phase::B;
+    if (curve.column == Column::v_x) {
+      point.y = slow.median;
+    } else if (slow.count(measure::Verdict::steady) > 0) {
+      const double R = curve.column == Column::surface_speed ? base.scene({}).mean_diameter() / 2 : 1;
+      point.y = slow.omega;
+      point.y->mean *= R;
+      if (point.y->error) *point.y->error *= R;
+    }
+  }
+
+ private:
+  const SweepSetting& setting_;
+  sweep::PointStore store_;
+};
+
+/// v_0 of (4.20) for the named series of a panel. WorkError if fewer than three of its points lie in B.
+SquareRootFit offset_fit(const std::vector<Point>& points, const std::string& panel, const std::string& series) {
+  std::vector<double> s, v;
+  for (const auto& p : points)
+    if (p.curve->series == series && p.curve->panel == panel && p.in_B && p.y)
+      s.push_back(p.x), v.push_back(p.y->mean);
+  if (s.size() < 3)
+    throw WorkError(fmt::format("series {}: {} points in phase B are too few for the offset v_0", series, s.size()));
+  return fit_square_root(s, v);
+}
+
+}  // namespace
+
+void describe(TomlReader& a, SweepCurve& curve) {
+  a.value("panel", curve.panel);
+  a.required("series", curve.series);
+  a.value("set", curve.set);
+  a.required_section("x", curve.x);
+  a.choice("column", curve.column, column_words);
+  a.value("velocities", curve.velocities);
+  a.value("alike", curve.alike, Range{0, 1, true, true});
+  a.section("boundary", curve.boundary);
+  a.value("above_offset", curve.above_offset);
+  a.value("offset_of", curve.offset_of);
+  a.check(is_boundary(curve) == curve.boundary.has_value(), "boundary",
+          "AB and BC, and only they, say along which parameter: boundary = { axis = …, tolerance = … }");
+  a.check(!curve.boundary || curve.boundary->axis.key == "incline.sin" || curve.boundary->axis.key == "incline.angle",
+          "boundary", "figures show boundaries along incline.sin or incline.angle");
+  a.check(!curve.above_offset || curve.column == Column::v_x, "above_offset", "needs column = \"v_x\"");
+}
+
+FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetting& setting, const Report& progress) {
+  std::vector<Point> points;
+  for (const auto& curve : curves)
+    for (const double x : curve.x.points(setting.quick)) {
+      points.push_back({&curve, x, {}});
+      setting.base.with(curve.set).with({curve.x.setting(x)}).scene({});  // refused before anything is simulated
+    }
+  const Sweeps sweeps(setting);
+  side_by_side(points.size(), setting.jobs, progress,
+               [&](std::size_t k, const Report& report) { sweeps.measure(points[k], report); });
+
+  FigureTable table;
+  for (const auto& curve : curves) {
+    double v_0 = 0;
+    if (curve.above_offset) {
+      const auto fit = offset_fit(points, curve.panel, curve.offset_of.value_or(curve.series));
+      v_0 = fit.v_0;
+      table.comments.push_back(
+          fmt::format("{} {}: v_0 = {:.5g} from a fit of (4.20) to {} in phase B, f = {:.4g}, sin theta_AB = {:.4g}",
+                      curve.panel, curve.series, v_0, curve.offset_of.value_or(curve.series), fit.f, fit.s_AB));
+    }
+    for (const auto& p : points) {
+      if (p.curve != &curve || !p.y) continue;
+      auto y = *p.y;
+      if (curve.above_offset) {
+        const double above = y.mean - v_0;
+        y = {above * above, y.error ? std::optional(2 * std::abs(above) * *y.error) : std::nullopt};
+      }
+      table.rows.push_back({curve.panel, curve.series, p.x, y.mean, {}, y.error});
+    }
+  }
+  return table;
+}
+
+}  // namespace chute::figures
