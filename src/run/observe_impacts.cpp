@@ -4,11 +4,6 @@
 
 namespace chute {
 
-template <class Archive>
-void serialize(Archive& a, Impact& i) {
-  a(i.time, i.grain, i.bead, i.place, i.gamma, i.phi, i.v_n, i.v_t);
-}
-
 namespace run {
 namespace {
 
