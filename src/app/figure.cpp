@@ -96,9 +96,9 @@ figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, cons
                                 const std::function<bool(double)>& progress) {
   if (recipe.data.table) return read_rows(file.parent_path() / *recipe.data.table);
   figures::FigureTable table;
-  if (recipe.data.compute || recipe.data.experiment) {
+  if (recipe.data.compute || !recipe.data.experiments.empty()) {
     table = recipe.data.compute ? find_computation(*recipe.data.compute, file)(context)
-                                : experiments::make_table(*recipe.data.experiment, file, context, progress);
+                                : experiments::make_table(recipe.data.experiments, file, context, progress);
     if (!recipe.data.scene) {
       table.comments.push_back(
           fmt::format("made by chute {} ({}){}", run::version, run::commit,

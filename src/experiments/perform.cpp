@@ -228,8 +228,7 @@ void write_files(const Experiment& e, const Outcome& outcome, const run::RunDire
       fmt::format("{}; units: {}; chute {} ({})", e.title, units_text(e), run::version, run::commit);
   io::Csv series({"what happened, per time since the surfaces met", comment},
                  {outcome.columns.begin(), outcome.columns.end()});
-  for (const auto& row : outcome.series)
-    series.row(std::vector<io::Csv::Cell>(row.begin(), row.end()));
+  for (const auto& row : outcome.series) series.row(std::vector<io::Csv::Cell>(row.begin(), row.end()));
   write_atomically(directory.file("series.csv"), series.text());
   io::Csv result({"what the experiment gave; meanings: chute run prints them", comment},
                  {"name", "unit", "value"});

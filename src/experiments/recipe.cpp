@@ -50,45 +50,58 @@ void describe(TomlReader& a, ExperimentRecipe& recipe) {
   a.check(!recipe.curves.empty(), "curve", "a figure needs at least one [[data.experiment.curve]]");
 }
 
-figures::FigureTable make_table(const ExperimentRecipe& recipe, const std::filesystem::path& recipe_file,
-                                const figures::FigureContext& context,
-                                const std::function<bool(double)>& progress) {
-  const auto scene = recipe_file.parent_path() / recipe.scene;
-  const auto text = read_file(scene);
-  const auto count = static_cast<int>(context.quick ? recipe.quick_count : recipe.count);
+namespace {
+
+std::vector<double> values_of(const ExperimentRecipe& recipe, bool quick) {
+  const auto count = static_cast<int>(quick ? recipe.quick_count : recipe.count);
   auto values = recipe.spacing == ExperimentRecipe::Spacing::even
                     ? evenly(recipe.from, recipe.to, count)
                     : logarithmically(recipe.from, recipe.to, count);
   values.insert(values.end(), recipe.more.begin(), recipe.more.end());
+  return values;
+}
 
-  std::vector<ComputedCurve> curves;
-  for (const auto& curve : recipe.curves) {
-    auto settings = recipe.set;
-    settings.insert(settings.end(), curve.set.begin(), curve.set.end());
-    for (const auto* quick : {&recipe.quick, &curve.quick})
-      if (context.quick) settings.insert(settings.end(), quick->begin(), quick->end());
-    const auto quantity = curve.quantity.value_or(recipe.quantity);
-    const auto measure = [&, settings, quantity](double x) {
-      auto all = settings;
-      all.push_back(fmt::format("{}={}", recipe.vary, x));
-      return perform(parse_experiment(text, scene.string(), all))[quantity];
-    };
-    std::function<double(double)> y = measure;
-    if (curve.power_law) {
-      const double at = *curve.power_law_at, p = *curve.power_law,
-                   amplitude = (1 - measure(at)) / std::pow(at, p);
-      y = [=](double x) { return 1 - amplitude * std::pow(x, p); };
-    }
-    curves.push_back({curve.panel, curve.series, curve.values.value_or(values), y});
-  }
+/// The quantity at a value of the varied key.
+std::function<double(double)> measurement(const ExperimentRecipe& recipe, const ExperimentCurve& curve,
+                                          const std::filesystem::path& scene, bool quick) {
+  auto settings = recipe.set;
+  settings.insert(settings.end(), curve.set.begin(), curve.set.end());
+  for (const auto* more : {&recipe.quick, &curve.quick})
+    if (quick) settings.insert(settings.end(), more->begin(), more->end());
+  const auto measure = [=, text = read_file(scene), vary = recipe.vary,
+                        quantity = curve.quantity.value_or(recipe.quantity)](double x) {
+    auto all = settings;
+    all.push_back(fmt::format("{}={}", vary, x));
+    return perform(parse_experiment(text, scene.string(), all))[quantity];
+  };
+  if (!curve.power_law) return measure;
+  const double at = *curve.power_law_at, p = *curve.power_law,
+               amplitude = (1 - measure(at)) / std::pow(at, p);
+  return [=](double x) { return 1 - amplitude * std::pow(x, p); };
+}
 
+}  // namespace
+
+figures::FigureTable make_table(std::span<const ExperimentRecipe> recipes,
+                                const std::filesystem::path& recipe_file,
+                                const figures::FigureContext& context,
+                                const std::function<bool(double)>& progress) {
   figures::FigureTable table;
-  table.comments = {fmt::format("x: {}", recipe.x), fmt::format("y: {}", recipe.y)};
-  table.comments.insert(table.comments.end(), recipe.notes.begin(), recipe.notes.end());
-  table.comments.push_back(fmt::format("experiments of {}{}{}", recipe.scene,
-                                       recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " ")));
+  std::vector<ComputedCurve> curves;
+  for (const auto& recipe : recipes) {
+    const auto values = values_of(recipe, context.quick);
+    for (const auto& curve : recipe.curves)
+      curves.push_back({curve.panel, curve.series, curve.values.value_or(values),
+                        measurement(recipe, curve, recipe_file.parent_path() / recipe.scene, context.quick)});
+    table.comments.push_back(fmt::format("x: {}", recipe.x));
+    table.comments.push_back(fmt::format("y: {}", recipe.y));
+    table.comments.insert(table.comments.end(), recipe.notes.begin(), recipe.notes.end());
+    table.comments.push_back(
+        fmt::format("{}experiments of {}{}{}", recipes.size() > 1 ? recipe.curves[0].panel + ": " : "",
+                    recipe.scene, recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " ")));
+    note_quick(table, context, fmt::format("{} values, {}", values.size(), fmt::join(recipe.quick, " ")));
+  }
   table.rows = evaluate(curves, context.jobs, progress);
-  note_quick(table, context, fmt::format("{} points, {}", count, fmt::join(recipe.quick, " ")));
   return table;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct ExperimentCurve {
   std::optional<double> power_law, power_law_at;
 };
 
-/// [data.experiment] of a figure recipe: a result of an experiment against one of its keys.
+/// [[data.experiment]] of a figure recipe: a result of an experiment against one of its keys.
 struct ExperimentRecipe {
   std::string scene;               ///< relative to the recipe
   std::vector<std::string> set;    ///< key=value for all
@@ -39,7 +40,8 @@ struct ExperimentRecipe {
 void describe(TomlReader& a, ExperimentRecipe& recipe);
 
 /// Does the experiments of a recipe file, `context.jobs` at a time.
-figures::FigureTable make_table(const ExperimentRecipe& recipe, const std::filesystem::path& recipe_file,
+figures::FigureTable make_table(std::span<const ExperimentRecipe> recipes,
+                                const std::filesystem::path& recipe_file,
                                 const figures::FigureContext& context,
                                 const std::function<bool(double)>& progress = {});
 

@@ -60,13 +60,13 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.value("scene", recipe.scene);
   a.value("compute", recipe.compute);
   a.value("table", recipe.table);
-  a.section("experiment", recipe.experiment);
+  a.sections("experiment", recipe.experiments);
   const int sources = (recipe.scene.has_value() || recipe.compute.has_value()) + recipe.table.has_value() +
-                      recipe.experiment.has_value();
+                      !recipe.experiments.empty();
   a.check(sources <= 1, "scene",
           "give one of scene (simulate; perhaps with compute, a built-in computation, beside it), experiment, table "
           "(a CSV file), or curves with runs");
-  if (!recipe.scene && (recipe.compute || recipe.table || recipe.experiment)) return;
+  if (!recipe.scene && (recipe.compute || recipe.table || !recipe.experiments.empty())) return;
   a.value("set", recipe.set);
   a.value("quick", recipe.quick);
   a.value("seeds", recipe.seeds, between(1, 10000));

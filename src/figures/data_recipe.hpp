@@ -49,11 +49,11 @@ struct Curve {
 struct DataRecipe {
   std::optional<std::string> scene;    ///< scene file, relative to the recipe
   std::optional<std::string> compute;  ///< instead: a computation that is no run of a scene, by name
-  std::optional<experiments::ExperimentRecipe> experiment;  ///< instead: results of an experiment
-  bool runs = false;                   ///< instead: every curve names its `runs`
-  std::optional<std::string> table;    ///< instead: a CSV file as figures have it, relative to the recipe
-  std::vector<std::string> set;        ///< key=value for every run
-  std::vector<std::string> quick;      ///< and with --quick
+  std::vector<experiments::ExperimentRecipe> experiments;  ///< instead: results of experiments
+  bool runs = false;                                       ///< instead: every curve names its `runs`
+  std::optional<std::string> table;  ///< instead: a CSV file as figures have it, relative to the recipe
+  std::vector<std::string> set;      ///< key=value for every run
+  std::vector<std::string> quick;    ///< and with --quick
   std::int64_t seeds = 1, quick_seeds = 1;  ///< runs per curve, with seeds 1, 2, …
   std::string x, y;                         ///< what x and y are, with units: comments of the CSV
   std::vector<std::string> notes;           ///< further comments

@@ -10,10 +10,13 @@
 #include "experiments/computed_figures.hpp"
 #include "experiments/recipe.hpp"
 
+/// The figures of the chapters on contact laws, and their rows as a reader of the CSV sees them.
+namespace chute::test {
+
 /// All figures of the chapters on contact laws.
-inline const std::vector<std::string> law_figures{
-    "fig-1-06", "fig-2-02", "fig-2-15", "fig-3-01", "fig-3-02", "fig-3-03", "fig-3-04",
-    "fig-3-05", "fig-3-06", "fig-3-07", "fig-3-08", "fig-3-10", "table-3-1"};
+inline const std::vector<std::string> law_figures{"fig-1-06", "fig-2-02", "fig-2-15", "fig-3-01", "fig-3-02",
+                                                  "fig-3-03", "fig-3-04", "fig-3-05", "fig-3-06", "fig-3-07",
+                                                  "fig-3-08", "fig-3-10", "table-3-1"};
 
 /// The table of a figure: a computation, or the experiments of its recipe in scenes/.
 inline experiments::FigureTable make_figure(const std::string& id,
@@ -22,15 +25,12 @@ inline experiments::FigureTable make_figure(const std::string& id,
   if (list.contains(id)) return list.at(id)(context);
   const auto file = std::filesystem::path(CHUTE_SOURCE_DIR) / "scenes" / (id + ".toml");
   const auto table = parse_toml(read_file(file), file.string());
-  TomlReader reader(*table["data"]["experiment"].as_table(), file.string(), "data.experiment");
-  experiments::ExperimentRecipe recipe;
-  experiments::describe(reader, recipe);
+  TomlReader reader(*table["data"].as_table(), file.string(), "data");
+  std::vector<experiments::ExperimentRecipe> recipes;
+  reader.sections("experiment", recipes);
   reader.finish();
-  return experiments::make_table(recipe, file, context);
+  return experiments::make_table(recipes, file, context);
 }
-
-/// A figure's rows by panel and series, as a reader of the CSV sees them.
-namespace chute::test {
 
 struct Points {
   std::vector<double> x, y, y_err;

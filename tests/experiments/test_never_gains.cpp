@@ -26,13 +26,15 @@ const std::vector<Named> honest = {
     {"(3.13) with (3.25), k_s = k_n", laws::CundallStrack{k_s_equal, {0.5, true}}},
     {"(3.17)", laws::WaltonBraunMindlin{k_s_equal, 0.5}},
     {"(3.22) with (3.25), shrinking", laws::MindlinSpring{k_hertz, {0.5, true}}, true},
+    {"(3.22) shrinking, without (3.25)", laws::MindlinSpring{k_hertz, {0.5, false}}, true},
+    // as printed it can gain where a contact is loaded again and again, but in no impact
+    {"(3.22) with (3.25), as printed", laws::MindlinSpring{k_hertz, {0.5, true}, false}, true},
 };
 /// Those that can, where F_n or the stiffness rises under a stretched spring; see their headers.
 const std::vector<Named> generous = {
     {"(3.13) without (3.25), k_s = k_n", laws::CundallStrack{k_s_equal, {0.5, false}}},
     {"(3.19)", laws::SawTooth{0.5, 1e-4}},
     {"(3.22) without (3.25)", laws::MindlinSpring{k_hertz, {0.5, false}, false}, true},
-    {"(3.22) with (3.25), as printed", laws::MindlinSpring{k_hertz, {0.5, true}, false}, true},
 };
 
 laws::Normal normal(bool hertz, bool elastic) {
@@ -76,7 +78,7 @@ TEST_CASE(
   for (const auto& [name, law, hertz] : generous) {
     const double gain = ManyImpacts<2>(1).worst_gain({normal(hertz, true), law}, 20000, 400) - 1;
     WARN(name << ": gains up to " << gain << " of the energy before");
-    CHECK(gain > 0.002);
+    CHECK(gain > 0.02);
     CHECK(gain < 0.25);
   }
 }
