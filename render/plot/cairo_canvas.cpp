@@ -136,7 +136,7 @@ class Canvas {
     }
   }
 
-  /// A long scatter plot as a transparent picture of 600 dpi: a PDF with 10^5 circles opens slowly
+  /// A long scatter plot as a transparent picture: a PDF with 10^5 circles opens slowly
   /// everywhere.
   void dots_as_picture(const DotsItem& item) {
     const Rect box = visible_box(item, clip_);

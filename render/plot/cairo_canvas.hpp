@@ -14,7 +14,7 @@ enum class Target { file, pixels };
 void draw_on_cairo(cairo_t* cairo, const DisplayList& list, double scale, Target target);
 
 /// Pixels per inch of scatter plots that are put into a file as a picture.
-inline constexpr double dots_dpi = 600;
+inline constexpr double dots_dpi = 450;
 /// What of the dots shows inside `clip`; turned inside out if nothing does.
 Rect visible_box(const DotsItem& item, const Rect& clip);
 

@@ -8,39 +8,52 @@
 #include "read/table.hpp"
 
 // clang-format off
-/// The plot half of a figure recipe, the table [plot]:
+/// The plot half of a figure recipe, the table [plot]. Every key, each with its default or an example; all may be
+/// left out. Texts know the TeX of mathtext.hpp.
 ///
 ///     [plot]
-///     width = "single"                 # 86 mm | "double", 178 mm; or width_mm = 120
-///     aspect = 0.75                    # of each frame; or height_mm for the page
-///     style = "journal"                # journal | slides | dark
-///     columns = 2
-///     share = "x"                      # none | x | y | both: one range per column / row, labels outside only
-///     legend = "automatic"             # automatic | each | common | off
-///     kind = "both"                    # line | markers | both | band | steps | bars | dots
-///     x = { label = "$h$ ($d$)", min = 0, max = 16 }     # also scale = "log", factor = 100 (times the data)
+///     width = "single"          # 86 mm; or "double", 178 mm; or width_mm = 120 instead
+///     aspect = 0.75             # height of a frame over its width; or height_mm = 60 of the page instead
+///     style = "journal"         # journal | slides | dark
+///     columns = 2               # of panels; default one up to 100 mm of width, else two
+///     share = "none"            # none | x | y | both: one range per column, per row; numbers at the outer panels only
+///     legend = "automatic"      # automatic | each | common | off; automatic: common if panels show the same series
+///     kind = "automatic"        # line | markers | both | band | steps | bars | dots: of series that nothing else decides
+///     x = { … }                 # axes of all panels, see below
+///     y = { … }
 ///
-///     [[plot.panel]]                   # for the rows whose panel is `label`; other panels are drawn all the same
-///     label = "a"
-///     title = "..."
-///     y = { label = "$\\eta$" }        # replaces what [plot] says, key by key
-///     legend = "top-right"             # automatic | top-left ... bottom-right | top (above the frame) | off
-///     reference = [{ kind = "diagonal" }, { kind = "horizontal", at = 0.5, label = "..." }]
-///     region = [{ above = "AB eps=0", below = "BC eps=0", shade = 1 }, { x_min = 0, x_max = 1 }]
-///     note = [{ text = "B", x = 2.2, y = 0.17 }, { text = "...", x = 0.5, y = 0.9, fraction = true }]
-///     inset = [{ series = ["e_n=0.8*"], panel = "i", x = {...}, y = {...}, place = "top-right", width = 0.4 }]
+///     # an axis
+///     label = "$h$ ($d$)"       # with its unit
+///     scale = "linear"          # linear | log
+///     min = 0                   # default: from the data; so is max
+///     max = 16
+///     factor = 100              # times the data: from m to cm
+///     names = ["a", "b"]        # labels of 1, 2 … in place of numbers; series then stand side by side
 ///
-///     [[plot.series]]                  # the first that matches decides; other series are drawn all the same
-///     match = "e_n=0.8*"               # the name in the CSV; * stands for anything
-///     panel = "a"                      # only there
-///     kind = "line"                    # or "off": not drawn
-///     label = "$e_n=0.8$"              # "" keeps it out of the legend
-///     color = "blue"                   # blue vermillion green purple orange sky yellow black
-///     marker = "circle"                # circle square up diamond down ring block triangle gem cross
-///     dash = "dashed"                  # solid dashed dotted dash-dot long dash-dot-dot
+///     [[plot.panel]]            # panels that the table has and the recipe has not are drawn all the same
+///     label = "a"               # the rows whose panel is this
+///     tag = "a"                 # what stands in the picture for the label, (a); "" for nothing
+///     title = "$\\epsilon=0$"    # after the tag, above the frame
+///     x = { … }                 # replaces what [plot] says, key by key; so does y
+///     y = { … }
+///     legend = "automatic"      # automatic | top-left | top-right | bottom-left | bottom-right | top (above the frame) | off
+///     reference = [{ kind = "diagonal", at = 0 }, { kind = "horizontal", at = 0.5, label = "$v_0$" }, { kind = "vertical", at = 1 }]
+///     region = [{ x_min = 0, x_max = 1, y_min = 0, y_max = 1, above = "AB eps=0", below = "BC eps=0", shade = 1 }]
+///                               # shaded (0 to 3) within the ranges and between the curves that are named
+///     note = [{ text = "B", x = 2.2, y = 0.17, fraction = false }]   # its middle; fraction: of the frame, from its lower left
+///     inset = [{ series = ["e_n=0.8*"], panel = "i", x = { … }, y = { … }, place = "automatic", width = 0.42, height = 0.4 }]
+///                               # series and panel: what it shows, default all of this panel; a panel that only an inset
+///                               # names is drawn there only; place: automatic or a corner; width, height: of the frame
 ///
-/// Where the recipe gives no kind, theory, fits and series of more than 80 points are lines, the others markers
-/// and lines. A panel that only an inset names is drawn in the inset only.
+///     [[plot.series]]           # the first that matches decides; series that none matches are drawn all the same
+///     match = "e_n=0.8*"        # the name in the table; * stands for anything
+///     panel = "a"               # only there
+///     kind = "automatic"        # as above, or off: not drawn. Automatic: a line for theory…, exact…, linear…, eq … and
+///                               # … fit; else what [plot] says; else a line above 80 points, both below
+///     label = "$e_n=0.8$"       # default made of the name; "" keeps it out of the legend
+///     color = "automatic"       # blue vermillion green purple orange sky yellow black
+///     marker = "automatic"      # filled: circle up down block gem; hollow: square diamond ring triangle; cross
+///     dash = "automatic"        # solid dashed dotted dash-dot long dash-dot-dot
 // clang-format on
 namespace chute::plot {
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "app/verbs.hpp"
 #include "common/error.hpp"
@@ -16,25 +17,17 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CompareArguments {
-  std::string expected, actual, difference;
+  std::string expected, difference;
+  std::vector<std::string> actual;
   int tolerance = image::strict.channel;
 };
 
-image::Tolerance tolerance_of(const CompareArguments& a) {
-  image::Tolerance tolerance;
-  tolerance.channel = a.tolerance;
-  return tolerance;
-}
-
-/// Prints the numbers; true if the pictures are the same.
-bool compare_files(const CompareArguments& a, const fs::path& expected, const fs::path& actual,
-                   const std::optional<fs::path>& difference, const std::string& name) {
-  const auto before = image::read_png(expected), after = image::read_png(actual);
-  const auto result = image::compare(before, after, tolerance_of(a));
-  fmt::print("{}: {}\n", name, result.summary());
-  if (difference && !result.passes) image::write_png(*difference, image::difference(before, after));
-  return result.passes;
-}
+/// Pictures of one name, and where the difference goes, if it is wanted.
+struct Pair {
+  std::string name;
+  fs::path expected, actual;
+  std::optional<fs::path> difference;
+};
 
 std::set<fs::path> pictures_in(const fs::path& folder) {
   std::set<fs::path> found;
@@ -44,63 +37,89 @@ std::set<fs::path> pictures_in(const fs::path& folder) {
   return found;
 }
 
-/// Compares the pictures of two folders by name; a picture that only one of them has is a difference.
-void compare_folders(const CompareArguments& a) {
-  const auto expected = pictures_in(a.expected), actual = pictures_in(a.actual);
-  if (expected.empty()) throw InputError(a.expected + ": no PNG pictures in this folder");
-  std::size_t different = 0;
-  for (const auto& name : expected) {
-    if (!actual.count(name)) {
-      fmt::print("{}: missing in {}\n", name.string(), a.actual);
-      ++different;
-      continue;
-    }
-    std::optional<fs::path> difference;
-    if (!a.difference.empty()) {
-      difference = fs::path(a.difference) / name;
-      fs::create_directories(difference->parent_path());
-    }
-    if (!compare_files(a, a.expected / name, a.actual / name, difference, name.string())) ++different;
+/// What is compared with what: two pictures; each of several with the one of its name in a folder; two
+/// folders, by name, where one that only one of them has is a difference.
+std::vector<Pair> pairs_of(const CompareArguments& a) {
+  const fs::path expected = a.expected;
+  const auto difference = [&](const fs::path& name) {
+    return a.difference.empty() ? std::nullopt : std::optional(fs::path(a.difference) / name);
+  };
+  const bool folder = fs::is_directory(expected);
+  std::vector<Pair> pairs;
+  if (folder && a.actual.size() == 1 && fs::is_directory(a.actual[0])) {
+    auto names = pictures_in(expected);
+    names.merge(pictures_in(a.actual[0]));
+    for (const auto& name : names)
+      pairs.push_back({name.string(), expected / name, fs::path(a.actual[0]) / name, difference(name)});
+    if (pairs.empty()) throw InputError(a.expected + ": no PNG pictures in these folders");
+    return pairs;
   }
-  for (const auto& name : actual)
-    if (!expected.count(name)) {
-      fmt::print("{}: only in {}\n", name.string(), a.actual);
-      ++different;
+  for (const auto& actual : a.actual) {
+    if (fs::is_directory(actual))
+      throw InputError(fmt::format("{}: compare two pictures or two folders, not one of each", actual));
+    const auto name = fs::path(actual).filename();
+    if (folder)
+      pairs.push_back({name.string(), expected / name, actual, difference(name)});
+    else
+      pairs.push_back({name.string(), expected, actual,
+                       a.difference.empty() ? std::nullopt : std::optional<fs::path>(a.difference)});
+  }
+  if (!folder && pairs.size() > 1)
+    throw InputError(a.expected + ": several pictures are compared with a folder that holds one for each");
+  return pairs;
+}
+
+/// Prints the numbers; true if the pictures are the same.
+bool is_same(const Pair& pair, const image::Tolerance& tolerance, bool both_must_be) {
+  for (const auto* file : {&pair.expected, &pair.actual})
+    if (!both_must_be && !fs::exists(*file)) {
+      fmt::print("{}: missing: {}\n", pair.name, file->string());
+      return false;
     }
-  if (different)
-    throw WorkError(
-        fmt::format("{} of {} pictures differ", different, std::max(expected.size(), actual.size())));
+  const auto before = image::read_png(pair.expected), after = image::read_png(pair.actual);
+  const auto result = image::compare(before, after, tolerance);
+  fmt::print("{}: {}\n", pair.name, result.summary());
+  if (pair.difference && !result.passes) {
+    if (pair.difference->has_parent_path()) fs::create_directories(pair.difference->parent_path());
+    image::write_png(*pair.difference, image::difference(before, after));
+  }
+  return result.passes;
 }
 
 void run(const CompareArguments& a) {
-  const bool folders = fs::is_directory(a.expected);
-  if (folders != fs::is_directory(a.actual))
-    throw InputError(fmt::format("{}: compare two pictures or two folders, not one of each", a.actual));
-  if (folders) return compare_folders(a);
-  const std::optional<fs::path> difference =
-      a.difference.empty() ? std::nullopt : std::optional<fs::path>(a.difference);
-  if (!compare_files(a, a.expected, a.actual, difference, fs::path(a.actual).filename().string()))
-    throw WorkError(fmt::format("{} differs from {}", a.actual, a.expected));
+  image::Tolerance tolerance;
+  tolerance.channel = a.tolerance;
+  const auto pairs = pairs_of(a);
+  std::size_t different = 0;
+  for (const auto& pair : pairs)
+    if (!is_same(pair, tolerance, !fs::is_directory(a.expected))) ++different;
+  if (!different) return;
+  if (pairs.size() == 1) throw WorkError(fmt::format("{} differs from {}", a.actual[0], a.expected));
+  throw WorkError(fmt::format("{} of {} pictures differ", different, pairs.size()));
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app) {
-  auto* verb =
-      app.add_subcommand("compare", "Compare two pictures, or two folders of pictures, pixel by pixel");
+  auto* verb = app.add_subcommand("compare", "Compare pictures, or folders of pictures, pixel by pixel");
   auto a = std::make_shared<CompareArguments>();
   verb->add_option("expected", a->expected, "a PNG picture or a folder of them")->required();
-  verb->add_option("actual", a->actual, "what to compare with it")->required();
+  verb->add_option(
+          "actual", a->actual,
+          "what to compare with it: a picture, a folder, or several pictures if `expected` is a folder "
+          "that holds one of each name")
+      ->required();
   verb->add_option(
       "--diff", a->difference,
-      "where pictures differ: write what differs, amplified, to this PNG (this folder, for folders)");
+      "where pictures differ: write what differs, amplified, to this PNG (this folder, for a folder)");
   verb->add_option("--tolerance", a->tolerance,
                    "largest difference of a colour channel, of 255, that still counts as same")
       ->check(CLI::Range(0, 255))
       ->capture_default_str();
   verb->footer(
       "Exit status: 0 same, 1 different, 2 a file is wrong.\n"
-      "Example: chute compare golden/fig-4-10.png out/figures/fig-4-10.png --diff difference.png");
+      "Example: chute compare golden/fig-4-10.png out/figures/fig-4-10.png --diff difference.png\n"
+      "         chute compare expected/ out/figures/*.png --diff out/differences");
   verb->callback([a] { run(*a); });
 }
 

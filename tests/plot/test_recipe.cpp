@@ -140,3 +140,39 @@ TEST_CASE("patterns match names") {
   REQUIRE_FALSE(matches("e_n", "e_n=0.4"));
   REQUIRE_FALSE(matches("*x", "xy"));
 }
+
+TEST_CASE("an axis with names has them for ticks, and its series side by side") {
+  const auto figure =
+      figure_of("[plot]\nx = { names = [\"one\", \"$v_x$\"] }\n[[plot.panel]]\nlabel = \"a\"\ntag = \"z\"");
+  const auto& panel = figure.panels[0];
+  REQUIRE((panel.label == "z" && panel.series.size() == 3));
+  REQUIRE(panel.series[1].x[0] == 1);  // the middle one of three
+  REQUIRE(panel.series[0].x[0] == Approx(2 - panel.series[2].x[0]));
+  REQUIRE(panel.series[0].x[1] - panel.series[0].x[0] == Approx(1));
+  std::vector<std::string> names;
+  for (const auto& box : lay_out(figure).boxes)
+    if (box.kind == Box::Kind::tick_label && box.panel == 0 && !std::isdigit(box.text[1]))
+      names.push_back(box.text);
+  REQUIRE(names == std::vector<std::string>{"one", "$v_x$"});
+  REQUIRE(message("[plot]\nx = { names = [\"$\\\\lalala$\"] }").find("fig.toml:2: plot.x.names:") == 0);
+  REQUIRE(message("[plot]\nx = { names = [\"a\"], scale = \"log\" }").find("not on a log axis") !=
+          std::string::npos);
+  const std::string wide(60, 'm');
+  REQUIRE(message("[plot]\nx = { names = [\"" + wide + "\", \"" + wide + "\"] }")
+              .find("too short for its 2 names") != std::string::npos);
+}
+
+TEST_CASE("a note at the frame's edge moves in; one that is larger than the panel is refused") {
+  const auto note = [](const std::string& text) {
+    return "[plot]\n[[plot.panel]]\nlabel = \"a\"\nnote = [{ text = \"" + text +
+           "\", x = 1, y = 1, fraction = true }]";
+  };
+  const auto boxes = lay_out(figure_of(note("corner"))).boxes;
+  const auto kind = [](Box::Kind wanted) {
+    return [wanted](const Box& b) { return b.kind == wanted && b.panel == 0; };
+  };
+  const auto text = std::find_if(boxes.begin(), boxes.end(), kind(Box::Kind::note));
+  const auto frame = std::find_if(boxes.begin(), boxes.end(), kind(Box::Kind::frame));
+  REQUIRE((text != boxes.end() && frame->rect.contains(text->rect)));
+  REQUIRE(message(note(std::string(90, 'm'))).find("larger than its panel") != std::string::npos);
+}

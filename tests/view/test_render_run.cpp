@@ -109,6 +109,22 @@ TEST_CASE("Pictures drawn from the same are kept, others drawn again") {
         std::vector<std::string>{"000000.png", "000001.png", "000002.png", "000003.png"});
 }
 
+TEST_CASE("A plot beside the grains is drawn again when its table changes, and only then") {
+  Folder folder;
+  make_run(folder.path, 3);
+  write_atomically(folder.path / "series.csv", "time,v_x\n0,1\n0.5,2\n1,3\n");
+  auto job = job_for(folder, "out");
+  job.style.width = 400, job.style.height = 300;
+  view::render_run(job);
+  job.plot = {"v_x"};
+  CHECK(view::render_run(job).drawn == 3);
+  CHECK(view::render_run(job).kept == 3);
+  write_atomically(folder.path / "series.csv", "time,v_x\n0,1\n0.5,2\n1,4\n");
+  CHECK(view::render_run(job).drawn == 3);
+  job.plot = {"v_y"};
+  CHECK_THROWS_WITH(view::render_run(job), Contains("no column \"v_y\""));
+}
+
 TEST_CASE("A range of frames keeps their numbers and the whole run's colours") {
   Folder folder;
   make_run(folder.path, 6);
