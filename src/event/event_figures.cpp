@@ -42,24 +42,9 @@ FigureTable compute_fig_4_21(const FigureContext& context) {
   return table;
 }
 
-FigureTable compute_event_4_22(const FigureContext& context) {
-  const double duration = context.quick ? 20 : 100, every = 0.1;
-  BallOnLine ball;
-  ball.size_ratio = 2.25;
-  ball.theta = std::asin(0.3);
-  FigureTable table;
-  table.comments = {"x: time, s", "y: velocity v_x, m/s", "Phi = 2.25, sin theta = 0.3", how(ball)};
-  auto engine = make_engine(ball);
-  for (double t = 0; t < duration + every / 2; t += every) {
-    engine.advance_to(ticks(ball, t));
-    table.rows.push_back({"b", "event-driven", t, engine.grains().velocity[0][0]});
-  }
-  return table;
-}
-
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& event_figures() {
   static const std::map<std::string, std::function<FigureTable(const FigureContext&)>> all{
-      {"fig-4-21", compute_fig_4_21}, {"event-4-22", compute_event_4_22}};
+      {"fig-4-21", compute_fig_4_21}};
   return all;
 }
 

@@ -2,8 +2,7 @@
 #include "measure/impact_histograms.hpp"
 #include "run/observer.hpp"
 
-namespace chute {
-namespace run {
+namespace chute::run {
 namespace {
 
 /// Sees all impacts after `from`. The engine stops there, so that it collects none before.
@@ -94,5 +93,4 @@ std::unique_ptr<Observer> observe_impact_histograms(const RunContext& run) {
   return spec ? std::make_unique<Histograms>(run, *spec) : nullptr;
 }
 
-}  // namespace run
-}  // namespace chute
+}  // namespace chute::run

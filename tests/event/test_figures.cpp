@@ -51,10 +51,3 @@ TEST_CASE("fig-4-21: in region C v_x grows without end, and v_z rises and falls 
     CHECK(jumps > 3);
   }
 }
-
-TEST_CASE("event-4-22: hard grains accelerate to the end") {
-  const auto table = compute_event_4_22({true, 1});
-  REQUIRE(table.rows.size() > 100);
-  CHECK(table.rows.back().y > 5);
-  CHECK(table.rows.back().y > 1.5 * table.rows[table.rows.size() / 2].y);
-}

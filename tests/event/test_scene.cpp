@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <sstream>
 
@@ -43,6 +45,23 @@ double mean_velocity(Engine& engine) {
   return (at(10) - from) / 8;
 }
 
+/// The same over whole beads: between the first and the last hit on a new bead.
+double mean_velocity_over_beads(Engine& engine, double from, double to) {
+  engine.advance_to(std::llround(from / engine.time_step()));
+  engine.collect_impacts(true);
+  engine.advance_to(std::llround(to / engine.time_step()));
+  std::int64_t bead = -1;
+  double first = 0, last = 0;
+  int passed = -2;  // the bead that it is on is passed in part
+  for (const auto& impact : engine.take_impacts()) {
+    if (impact.bead == bead) continue;
+    bead = impact.bead;
+    last = impact.time;
+    if (++passed == 0) first = last;
+  }
+  return passed * 0.01 / (last - first);
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -52,6 +71,58 @@ TEST_CASE(
   // Bouncing and rolling in region B: the two methods share nothing but the scene.
   CHECK(mean_velocity(*hard.engine) == Approx(mean_velocity(*soft.engine)).epsilon(0.01));
   CHECK_FALSE(hard.engine->energy().normal_loss == 0);
+}
+
+TEST_CASE(
+    "one ball, bouncing and rolling: soft and hard agree on v_x to 0.1 % at k_n = 2e8 N/m, 0.3 % at 2e6") {
+  // (3.12) sticks like β = 0 when γ_s is large against m/t_n: it grows like the square root of k_n.
+  for (const auto& [phi, sine] : {std::pair{"2.25", "0.05"}, std::pair{"3", "0.05"}}) {
+    const std::vector<std::string> line{fmt::format("grains.size_ratio={}", phi),
+                                        fmt::format("incline.sin={}", sine)};
+    const auto with = [&](std::vector<std::string> settings) {
+      settings.insert(settings.end(), line.begin(), line.end());
+      return mean_velocity_over_beads(*make(settings).engine, 3, 7);
+    };
+    const double hard =
+        with({"engine.method=event", "engine.tangential_restitution=0", "engine.contact_time=1e-5"});
+    const double soft = with({"contact.normal.stiffness=2e6", "contact.tangential.viscosity=1e3"}),
+                 stiff = with({"contact.normal.stiffness=2e8", "contact.tangential.viscosity=1e4"});
+    CAPTURE(phi, hard, soft, stiff);
+    CHECK(stiff == Approx(hard).epsilon(1e-3));
+    CHECK(soft == Approx(hard).epsilon(3e-3));
+  }
+}
+
+TEST_CASE("in region C the hard ball goes on getting faster, and soft ones do not: the stiffer the later") {
+  const auto speeds = [](std::vector<std::string> settings) {
+    settings.push_back("incline.sin=0.3");
+    auto made = make(settings);
+    const auto at = [&](double t) {
+      made.engine->advance_to(std::llround(t / made.engine->time_step()));
+      return made.engine->grains().unwrapped(0, 0);
+    };
+    std::array<double, 3> mean{};  // over 20 s each
+    double before = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double now = at(20.0 * static_cast<double>(k + 1));
+      mean[k] = (now - before) / 20;
+      before = now;
+    }
+    return mean;
+  };
+  const auto hard = speeds({"engine.method=event", "engine.tangential_restitution=0.34"});
+  CHECK(hard[1] > 1.5 * hard[0]);
+  CHECK(hard[2] > 1.25 * hard[1]);
+  double slower = 0;
+  for (const char* stiffness : {"1e4", "2e4"}) {
+    const auto soft =
+        speeds({fmt::format("contact.normal.stiffness={}", stiffness), "engine.deepest_overlap=1"});
+    CAPTURE(stiffness, soft[0], soft[1], soft[2]);
+    CHECK(soft[2] == Approx(soft[1]).epsilon(0.05));
+    CHECK(soft[2] > 1.2 * slower);
+    CHECK(soft[2] < 0.7 * hard[2]);
+    slower = soft[2];
+  }
 }
 
 TEST_CASE("keys of the event-driven method are read, written back and checked") {
