@@ -42,13 +42,19 @@ double folded(double angle, double period) {
   return period > 0 ? angle - period * std::floor(angle / period) : angle;
 }
 
-std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> runs) {
+/// The curve's column, of all runs.
+std::vector<double> joined(const Curve& curve, std::span<const fs::path> runs) {
   std::vector<double> values;
   for (const auto& run : runs) {
     const Impacts impacts(run);
-    for (double v : impacts.column(curve.column))
+    for (const double v : impacts.column(curve.column))
       values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));
   }
+  return values;
+}
+
+std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> runs) {
+  const std::vector<double> values = joined(curve, runs);
   if (values.empty())
     throw WorkError(
         fmt::format("series {}: no impacts were recorded, so there is no histogram", curve.series));
@@ -108,13 +114,7 @@ std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> run
 
 /// One peak of the distribution over all runs; no row where it is not distinguishable.
 std::vector<FigureRow> peak(const Curve& curve, std::span<const fs::path> runs) {
-  std::vector<double> values;
-  for (const auto& run : runs) {
-    const Impacts impacts(run);
-    const auto& column = impacts.column(curve.column);
-    values.insert(values.end(), column.begin(), column.end());
-  }
-  const auto peaks = find_peaks(values, curve.bandwidth);
+  const auto peaks = find_peaks(joined(curve, runs), curve.bandwidth);
   const auto wanted = static_cast<std::size_t>(curve.peak);
   if (wanted >= peaks.size() || peaks[wanted].width > curve.widest) return {};
   return {{curve.panel, curve.series, curve.at, peaks[wanted].position, {}, peaks[wanted].width}};

@@ -87,6 +87,28 @@ TEST_CASE("a ball dropped on the top of a bead: flights 2 v e^k/g") {
   }
 }
 
+TEST_CASE("a restitution that depends on the velocity: each bounce of a dropped ball has its own") {
+  const double height = 2, loss = 0.3, at = 1.5, exponent = 0.2;
+  Grains<2> grains;
+  add_ball<2>(grains, {{0, 2 + height}}, {}, 1, 3, true);
+  add_ball<2>(grains, {}, {}, 1, 1, false);
+  EventSetup<2> setup;
+  setup.gravity = {{0, -1}};
+  setup.contact = {laws::PowerLawRestitution{loss, at, exponent}, {}};
+  setup.tick = 0.01;
+  EventEngine<2> engine(grains, setup);
+  engine.collect_impacts(true);
+  engine.advance_to(1150);
+  const auto impacts = engine.take_impacts();
+  REQUIRE(impacts.size() >= 8);
+  double v = std::sqrt(2 * height);
+  for (std::size_t k = 1; k < 8; ++k) {
+    v *= 1 - loss * std::pow(v / at, exponent);
+    CHECK(impacts[k].v_n == Approx(-v).epsilon(1e-12));
+    CHECK(impacts[k].flight == Approx(2 * v).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a ball that rolls from bead to bead hits each once, without flight") {
   BallOnLine ball{.size_ratio = 3, .theta = 0.1};
   ball.contact = {laws::ConstantRestitution{0}, {.friction = 1e9, .beta = 0}};
