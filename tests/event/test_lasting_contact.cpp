@@ -131,3 +131,27 @@ TEST_CASE("a ball wedged between two beads stays there, whatever friction takes"
       CHECK(engine.work().collisions < 100 / t_c * 10);
     }
 }
+
+TEST_CASE("a heap at rest goes on, at a cost that its contacts and its height bound") {
+  // A bounce of at least g t_c/4 lasts t_c/2 under the grain's own weight, and n times less under n grains.
+  const int rows = 5;
+  for (const double e : {0.0, 0.3}) {
+    Heap heap(6, rows, 0.05);
+    heap.setup.contact = {laws::ConstantRestitution{e}, {.friction = 0.5}};
+    heap.setup.contact_time = 5e-3;
+    EventEngine<2> engine(heap.grains, heap.setup);
+    engine.advance_to(100);
+    const auto before = engine.work().collisions;
+    engine.advance_to(105);
+    CAPTURE(e);
+    const auto contacts = static_cast<double>(engine.contacts().size());
+    REQUIRE(contacts > 30);
+    const double per_contact =
+        static_cast<double>(engine.work().collisions - before) / contacts / (0.5 / heap.setup.contact_time);
+    CHECK(per_contact < 2 * 2 * rows);
+    CHECK(per_contact > 1);
+    const auto energy = engine.energy();
+    CHECK(energy.translation / 30 < 1e-3);
+    CHECK(energy.residual() == Approx(0).margin(1e-9 * (energy.gravity_work + energy.start)));
+  }
+}
