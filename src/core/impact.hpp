@@ -104,7 +104,7 @@ class TouchLog {
 
   template <class Archive>
   void serialize(Archive& a) {
-    a(grains_);
+    a(grains_, contact_time_);
   }
 
  private:

@@ -12,7 +12,8 @@ namespace chute::laws {
 ///     F_s = −μ |F_n| (ζ/ζ_0 − trunc(ζ/ζ_0)),    ζ = ∫ v_s dt (3.14)
 ///
 /// In 3D along ζ. The time step has to resolve ζ_0. At constant F_n the force is conservative: each tooth
-/// gives back on the way home what it took.
+/// gives back on the way home what it took. Where F_n has risen in between it gives back more: under an
+/// elastic normal force impacts gain up to 4 % of their energy.
 struct SawTooth {
   static constexpr std::string_view name = "saw-tooth";
   static constexpr int vectors = 1, scalars = 0;

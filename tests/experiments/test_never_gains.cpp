@@ -15,6 +15,7 @@ struct Named {
   const char* name;
   laws::Shear law;
   bool hertz = false;
+  double gain = 0;  ///< largest known, of the energy before
 };
 /// Tangential laws that cannot gain: they only brake, or store no more than was put in.
 const std::vector<Named> honest = {
@@ -32,9 +33,9 @@ const std::vector<Named> honest = {
 };
 /// Those that can, where F_n or the stiffness rises under a stretched spring; see their headers.
 const std::vector<Named> generous = {
-    {"(3.13) without (3.25), k_s = k_n", laws::CundallStrack{k_s_equal, {0.5, false}}},
-    {"(3.19)", laws::SawTooth{0.5, 1e-4}},
-    {"(3.22) without (3.25)", laws::MindlinSpring{k_hertz, {0.5, false}, false}, true},
+    {"(3.13) without (3.25), k_s = k_n", laws::CundallStrack{k_s_equal, {0.5, false}}, false, 0.113},
+    {"(3.19)", laws::SawTooth{0.5, 1e-4}, false, 0.040},
+    {"(3.22) without (3.25)", laws::MindlinSpring{k_hertz, {0.5, false}, false}, true, 0.191},
 };
 
 laws::Normal normal(bool hertz, bool elastic) {
@@ -49,7 +50,7 @@ laws::Normal normal(bool hertz, bool elastic) {
 
 TEST_CASE("10^5 random impacts with a dissipative normal force never gain energy") {
   for (const auto& list : {honest, generous})
-    for (const auto& [name, law, hertz] : list) {
+    for (const auto& [name, law, hertz, known] : list) {
       const laws::Contact contact{normal(hertz, false), law};
       const double flat = ManyImpacts<2>(1).worst_gain(contact, 60000, 60);
       const double deep = ManyImpacts<3>(2).worst_gain(contact, 40000, 60);
@@ -63,7 +64,7 @@ TEST_CASE("10^5 random impacts with a dissipative normal force never gain energy
 }
 
 TEST_CASE("With an elastic normal force, nothing is gained but the error of the integration") {
-  for (const auto& [name, law, hertz] : honest) {
+  for (const auto& [name, law, hertz, known] : honest) {
     const laws::Contact contact{normal(hertz, true), law};
     const double coarse = ManyImpacts<2>(1).worst_gain(contact, 20000, 100) - 1;
     const double fine = ManyImpacts<2>(1).worst_gain(contact, 20000, 400) - 1;
@@ -75,11 +76,11 @@ TEST_CASE("With an elastic normal force, nothing is gained but the error of the 
 
 TEST_CASE(
     "Tangential springs without the cap gain energy where the normal force is elastic; the laws say so") {
-  for (const auto& [name, law, hertz] : generous) {
+  for (const auto& [name, law, hertz, known] : generous) {
     const double gain = ManyImpacts<2>(1).worst_gain({normal(hertz, true), law}, 20000, 400) - 1;
     WARN(name << ": gains up to " << gain << " of the energy before");
-    CHECK(gain > 0.02);
-    CHECK(gain < 0.25);
+    CHECK(gain > 0.8 * known);
+    CHECK(gain < 1.1 * known);
   }
 }
 
@@ -87,7 +88,7 @@ TEST_CASE("Near-grazing impacts on a fixed grain with mu = 0.5") {
   // A slight touch at high speed: a law that takes the wrong lever or the wrong reduced mass gains here.
   using namespace experiments;
   double worst = 0;
-  for (const auto& [name, law, hertz] : honest)
+  for (const auto& [name, law, hertz, known] : honest)
     for (const double psi : {10.0, 100.0, 1000.0, 10000.0})
       for (const double spin : {-3.0, 0.0, 3.0}) {
         BinaryImpact<2> impact;
