@@ -1,7 +1,11 @@
 #include "view/layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "common/error.hpp"
 
 namespace chute::view {
 namespace {
@@ -119,6 +123,9 @@ Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, dou
                  column = std::max(plot_width * layout.em, 0.34 * width), edge = 0.5 * margin * layout.em;
     const auto above = fit(width, height - strip), left = fit(width - column, height);
     layout = above.size >= left.size ? above.layout : left.layout;
+    if (above.size == 0 && left.size == 0)
+      throw InputError(fmt::format("a picture of {} x {} pixels is too small for a plot beside the grains",
+                                   style.width, style.height));
     layout.has_plot = true;
     if (above.size >= left.size) {
       layout.plot = {edge, height - strip, width - edge, height - edge};
