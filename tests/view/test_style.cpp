@@ -81,11 +81,14 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
   style.width = width, style.height = height;
   if (GENERATE(false, true)) survey.series.columns = {{"v_x", {}}};
   const double title = 2.6, labels = 1.8;
-  if (!survey.series.empty() && width < 400) {
-    CHECK_THROWS_WITH(view::arrange(style, survey, aspect, title, labels), Contains("too small"));
+  view::Layout layout;
+  try {
+    layout = view::arrange(style, survey, aspect, title, labels);
+  } catch (const InputError& error) {  // a plot beside the grains wants its room
+    CHECK_THAT(error.what(), Contains("too small for a plot"));
+    CHECK((!survey.series.empty() && width < 400));
     return;
   }
-  const auto layout = view::arrange(style, survey, aspect, title, labels);
   const double em = layout.em;
   CAPTURE(width, height, aspect, layout.upright_bar);
   const plot::Rect page{0, 0, double(width), double(height)};
