@@ -1,7 +1,11 @@
 #include "view/layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "common/error.hpp"
 
 namespace chute::view {
 namespace {
@@ -16,6 +20,7 @@ constexpr double label_gap = 0.5;   // colours to numbers
 constexpr double longest_bar = 20;
 constexpr double gravity_width = 4.4, gravity_height = 5.0;
 constexpr double plot_width = 17, plot_height = 10;  // at least, of a plot beside or below the scene
+constexpr double least_scene = 6;                    // its longer side, where a plot takes room
 
 }  // namespace
 
@@ -119,6 +124,9 @@ Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, dou
                  column = std::max(plot_width * layout.em, 0.34 * width), edge = 0.5 * margin * layout.em;
     const auto above = fit(width, height - strip), left = fit(width - column, height);
     layout = above.size >= left.size ? above.layout : left.layout;
+    if (std::max(above.size, left.size) < least_scene * layout.em * std::min(1.0, aspect))
+      throw InputError(fmt::format("a picture of {} x {} pixels is too small for a plot beside the grains",
+                                   style.width, style.height));
     layout.has_plot = true;
     if (above.size >= left.size) {
       layout.plot = {edge, height - strip, width - edge, height - edge};

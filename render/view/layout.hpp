@@ -23,7 +23,7 @@ struct Layout {
 };
 
 /// `aspect` = width / height of what is to be seen. `title_width` and `label_width` in em: of the colour
-/// bar's texts.
+/// bar's texts. InputError if the picture is too small for the plot that is wanted.
 Layout arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
                double label_width);
 

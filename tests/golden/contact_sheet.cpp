@@ -1,13 +1,10 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
 
-#include "common/error.hpp"
 #include "golden.hpp"
 #include "image/png.hpp"
+#include "tool.hpp"
 #include "view/lay_over.hpp"
 
 namespace {
@@ -71,8 +68,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 20));
   app.add_flag("--small", small, "fewer colours: a smaller file");
   app.footer("Example: contact_sheet .pictures/figures.png --small band inset steps");
-  try {
-    app.parse(argc, argv);
+  return golden::run_tool(app, argc, argv, [&] {
     if (names.empty())
       for (const auto& golden : golden::all_goldens()) names.push_back(golden.name);
     std::vector<image::Image> pictures;
@@ -81,14 +77,5 @@ int main(int argc, char** argv) {
     auto sheet = sheet_of(pictures, columns);
     if (small) thin(sheet);
     image::write_png(output, sheet, {{"Software", "chute, contact_sheet"}}, image::small_level);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  });
 }

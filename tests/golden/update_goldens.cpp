@@ -1,9 +1,5 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-
-#include "common/error.hpp"
 #include "harness.hpp"
+#include "tool.hpp"
 
 /// Draws golden pictures anew, when a change of theirs is wanted. Never run by a test.
 int main(int argc, char** argv) {
@@ -15,18 +11,8 @@ int main(int argc, char** argv) {
   app.add_option("--reason", reason, "why the pictures change; goes to manifest.json")->required();
   app.add_option("--folder", folder, "where they are")->capture_default_str();
   app.footer("Example: update_goldens --reason \"legend moved inside\" log-axes band");
-  try {
-    app.parse(argc, argv);
+  return golden::run_tool(app, argc, argv, [&] {
     for (const auto& line : golden::update(folder, golden::all_goldens(), names, reason))
       fmt::print("{}\n", line);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  });
 }
