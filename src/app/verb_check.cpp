@@ -5,6 +5,7 @@
 #include "experiments/experiment.hpp"
 #include "run/facts.hpp"
 #include "scene/start.hpp"
+#include "sweep/sweep_file.hpp"
 
 namespace chute::app {
 namespace {
@@ -15,6 +16,12 @@ void check(const std::string& file, const std::vector<std::string>& settings) {
   if (experiments::is_experiment(file)) {
     const auto experiment = experiments::read_experiment(file, settings);
     resolved = to_toml(experiment), facts = experiments::facts(experiment);
+  } else if (const sweep::Base base{file, settings}; sweep::is_sweep(base)) {
+    const auto spec = sweep::read_sweep(base);
+    const auto places = sweep::grid(spec.axes);
+    for (const auto& place : places) scene::make_start(base.scene(place.set));
+    resolved = sweep::to_toml(base, spec), facts = run::facts(base.scene(places.front().set));
+    facts.push_back({"places", static_cast<double>(places.size()), "", "places of the grid; the rest is of the first"});
   } else {
     const auto scene = scene::read_scene(file, settings);
     scene::make_start(scene);  // says if the grains do not fit

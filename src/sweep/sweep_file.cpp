@@ -18,9 +18,16 @@ void describe(Archive& a, Section& section) {
 
 }  // namespace
 
-SweepSpec read_sweep(const Base& base) {
+static toml::table read_table(const Base& base) {
   auto table = parse_toml(read_file(base.file), base.file.string());
   for (const auto& setting : base.set) set_by_path(table, setting);
+  return table;
+}
+
+bool is_sweep(const Base& base) { return read_table(base).contains("sweep"); }
+
+SweepSpec read_sweep(const Base& base) {
+  const auto table = read_table(base);
   if (!table.contains("sweep"))
     throw InputError(base.file.string() + ": has no [sweep], which says what to change; a single run is: chute run");
   TomlReader reader(table, base.file.string());

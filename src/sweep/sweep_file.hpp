@@ -5,6 +5,9 @@
 
 namespace chute::sweep {
 
+/// Does the scene file hold a [sweep]? InputError if it cannot be read.
+bool is_sweep(const Base& base);
+
 /// [sweep] of a scene file. InputError `FILE:LINE: …` if there is none, or something is wrong in it.
 SweepSpec read_sweep(const Base& base);
 
