@@ -104,7 +104,7 @@ class TouchLog {
 
   template <class Archive>
   void serialize(Archive& a) {
-    a(grains_, contact_time_);
+    a(grains_);
   }
 
  private:

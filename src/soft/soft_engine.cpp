@@ -21,7 +21,8 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
       list_(setup.domain, setup.skins, setup.search, setup.isa),
       stages_(setup.domain, setup.laws, setup.isa,
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
-      integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa) {
+      integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
+      touches_(grains_.moving, setup.contact_time) {
   for (auto& f : force_) f.resize(grains_.size());
   for (auto& t : torque_) t.resize(grains_.size());
   for (int k = 0; k < D; ++k)
