@@ -183,15 +183,12 @@ Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
   if (record.rows() <= blocks) return plain(Verdict::unsettled, late);
 
   const auto v = record.velocities(0, blocks);
-  const auto forgotten = transient(v);
-  if (static_cast<double>(forgotten) <= 0.6 * blocks) {
-    const auto first = record.row(0, forgotten, blocks);
-    const double way = std::abs(series.x.back() - series.x[first]);
-    if (way >= 20 * scales.length && is_steady(record, first))
-      return {Verdict::steady, series.time[first], estimate(record.velocities(first, stretches)),
-              estimate(record.means(series.omega, first, stretches)),
-              estimate(record.means(series.kinetic, first, stretches))};
-  }
+  const auto first = record.row(0, std::min(transient(v), 3 * blocks / 5), blocks);
+  const double way = std::abs(series.x.back() - series.x[first]);
+  if (way >= 20 * scales.length && is_steady(record, first))
+    return {Verdict::steady, series.time[first], estimate(record.velocities(first, stretches)),
+            estimate(record.means(series.omega, first, stretches)),
+            estimate(record.means(series.kinetic, first, stretches))};
   if (runs_away(v)) return plain(Verdict::runaway, late);
   return plain(accelerates(v) ? Verdict::accelerating : Verdict::unsettled, late);
 }

@@ -49,12 +49,12 @@ struct Flow {
 /// - `stopped`: during the last 10 √(length/g) the kinetic energy per mass stays under 10⁻³ g·length and the
 /// mean
 ///   place within half a length. Counts from when that became so.
-/// - `steady`: the transient that MSER removes (what is left has nearly the least squared standard error of
-/// the mean velocity) ends
-///   before 0.6 of the run; since then at least 20 lengths were made; the linear trend over twelve stretches
-///   of that time changes the velocity by less than a tenth, or by less than three of its standard errors,
-///   which must not exceed 0.15 of the velocity; and the last eighth of the run lies within 15 % of the mean,
-///   or within four standard deviations of the stretches.
+/// - `steady`: after the transient that MSER removes (what is left has nearly the least squared standard
+/// error of the
+///   mean velocity), or after three fifths of the run if that is earlier, at least 20 lengths are made; the
+///   linear trend over twelve stretches of that time changes the velocity by less than a tenth, or by less
+///   than three of its standard errors, which must not exceed 0.15 of the velocity; and the last eighth of
+///   the run lies within 15 % of the mean, or within four standard deviations of the stretches.
 /// - `runaway`: three eighths of the run in a row were a plateau (means of the eighths within 15 %), the last
 /// eighth is
 ///   at least 1.3 times as fast and faster than all blocks of the plateau, and not slower than the eighth

@@ -78,7 +78,7 @@ double time_step(const scene::Scene& scene) {
   return between / std::ceil(between / longest);
 }
 
-Made make_engine(const scene::Scene& scene) {
+Made make_engine(const scene::Scene& scene, int threads) {
   auto start = scene::make_start(scene);
   const double theta = scene.incline.theta(), g = scene.incline.gravity;
   const Vec<2> gravity{{g * std::sin(theta), -g * std::cos(theta)}};
@@ -100,6 +100,8 @@ Made make_engine(const scene::Scene& scene) {
   setup.deepest_overlap = scene.engine.deepest_overlap;
   setup.floor = floor;
   setup.contact_time = reference_impact(scene).contact_time;
+  setup.threads =
+      static_cast<int>(std::clamp<std::int64_t>(scene.grains.count / grains_per_thread, 1, threads));
   return {std::make_unique<soft::SoftEngine<2>>(std::move(start.grains), setup), start.domain};
 }
 

@@ -37,7 +37,7 @@ class Run {
       : scene_(scene),
         options_(options),
         resolved_(scene::to_toml(scene)),
-        made_(make_engine(scene)),  // may refuse the scene: before anything is written
+        made_(make_engine(scene, options.threads)),  // may refuse the scene: before anything is written
         directory_(options.directory, options.existing),
         context_(context(scene, made_, directory_)),
         observers_(context_),

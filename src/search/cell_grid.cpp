@@ -54,7 +54,8 @@ struct Layout {
 }  // namespace
 
 template <int D>
-void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs) {
+void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs,
+                       Team& team) {
   const Layout<D> layout(grains, domain, skin);
   const std::size_t n = grains.size();
   const auto cell_at = [&](std::size_t i) {
@@ -83,12 +84,10 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
                                                            : static_cast<std::int32_t>(n);
   };
 
-  pairs.clear();
-  pairs.reserve(grains.moving * (D == 2 ? 4 : 10));  // about what a dense flow has
   int neighbours = 1;
   for (int k = 0; k < D; ++k) neighbours *= 3;
-  for (std::size_t i = 0; i < grains.moving; ++i) {
-    row_.clear();
+  const auto find_of = [&](std::size_t i, std::vector<std::int32_t>& row, PairList& found) {
+    row.clear();
     const auto home = cell_at(i);
     std::array<int, 27> seen;  // with fewer than three periodic cells a neighbour can appear twice
     int seen_count = 0;
@@ -108,14 +107,23 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
       seen[static_cast<std::size_t>(seen_count++)] = flat;
       for (auto m = begin_of(flat); m < end_of(flat); ++m) {
         const auto j = static_cast<std::size_t>(member_[static_cast<std::size_t>(m)]);
-        if (j > i && within(grains, domain, i, j, skin)) row_.push_back(static_cast<std::int32_t>(j));
+        if (j > i && within(grains, domain, i, j, skin)) row.push_back(static_cast<std::int32_t>(j));
       }
     }
-    std::sort(row_.begin(), row_.end());
-    for (const auto j : row_)
-      pairs.add(static_cast<std::int32_t>(i), j,
+    std::sort(row.begin(), row.end());
+    for (const auto j : row)
+      found.add(static_cast<std::int32_t>(i), j,
                 grains.radius[i] + grains.radius[static_cast<std::size_t>(j)]);
-  }
+  };
+  row_.resize(team.size());
+  parts_.resize(team.size() - 1);
+  team.split(grains.moving, [&](Part range, std::size_t k) {
+    PairList& found = k == 0 ? pairs : parts_[k - 1];
+    found.clear();
+    found.reserve(grains.moving * (D == 2 ? 4 : 10));  // about what a dense flow has
+    for (std::size_t i = range.begin; i < range.end; ++i) find_of(i, row_[k], found);
+  });
+  for (const auto& part : parts_) pairs.append(part);
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 #include "search/neighbour_list.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/not_a_number.hpp"
@@ -14,17 +15,17 @@ struct MovedKernel {
   std::array<const double*, D> now, before;
   Vec<D> length, half;
   double limit_squared;
-  std::size_t count;
+  Part range;
   std::int64_t* any;
 
   void operator()() const {
     const auto r = now, r0 = before;  // copies: the compiler then knows that they do not change in the loop
     const auto full = length, fold = half;
     const double limit = limit_squared;
-    const auto n = count;
+    const auto [begin, end] = range;
     std::int64_t found = 0;
     CHUTE_VECTOR_LOOP
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       double d2 = 0;
       for (int k = 0; k < D; ++k) {
         const double d = Domain<D>::nearest_image(r[k][i] - r0[k][i], full[k], fold[k]);
@@ -43,12 +44,17 @@ NeighbourList<D>::NeighbourList(const Domain<D>& domain, Skins skins, Method met
     : domain_(domain), skins_(skins), method_(method), isa_(isa) {}
 
 template <int D>
-bool NeighbourList<D>::moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit) const {
-  std::int64_t any = 0;
-  MovedKernel<D> kernel{{}, {}, domain_.length, 0.5 * domain_.length, limit * limit, grains.moving, &any};
-  for (int k = 0; k < D; ++k) kernel.now[k] = grains.position[k].data(), kernel.before[k] = since[k].data();
-  run_kernel(isa_, kernel);
-  return any != 0;
+bool NeighbourList<D>::moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit,
+                             Team& team) const {
+  std::atomic<std::int64_t> moved = 0;
+  team.split(grains.moving, [&](Part range, std::size_t) {
+    std::int64_t any = 0;
+    MovedKernel<D> kernel{{}, {}, domain_.length, 0.5 * domain_.length, limit * limit, range, &any};
+    for (int k = 0; k < D; ++k) kernel.now[k] = grains.position[k].data(), kernel.before[k] = since[k].data();
+    run_kernel(isa_, kernel);
+    if (any) moved.store(1, std::memory_order_relaxed);
+  });
+  return moved != 0;
 }
 
 template <int D>
@@ -59,12 +65,12 @@ void NeighbourList<D>::remember(const Grains<D>& grains, std::array<Array, D>& p
 }
 
 template <int D>
-void NeighbourList<D>::build_far(const Grains<D>& grains) {
+void NeighbourList<D>::build_far(const Grains<D>& grains, Team& team) {
   for (std::size_t i = 0; i < grains.moving; ++i)
     for (int k = 0; k < D; ++k)
       if (!std::isfinite(grains.position[k][i])) throw NotANumber{i};
   if (method_ == Method::cells)
-    grid_.find(grains, domain_, skins_.far, far_);
+    grid_.find(grains, domain_, skins_.far, far_, team);
   else
     all_pairs(grains, domain_, skins_.far, far_);
   remember(grains, far_places_);
@@ -72,27 +78,33 @@ void NeighbourList<D>::build_far(const Grains<D>& grains) {
 }
 
 template <int D>
-void NeighbourList<D>::build_near(const Grains<D>& grains) {
-  near_.clear();
-  near_.reserve(far_.size() / 2);
-  for (std::size_t p = 0; p < far_.size(); ++p) {
-    const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
-    const auto way = domain_.way(grains.place(i), grains.place(j));
-    const double reach = grains.radius[i] + grains.radius[j];
-    if (dot(way, way) < (reach + skins_.near) * (reach + skins_.near)) near_.add(far_.i[p], far_.j[p], reach);
-  }
+void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
+  const auto gather = [&](Part range, PairList& pairs) {
+    pairs.clear();
+    pairs.reserve(far_.size() / 2);  // whoever gathers: the parts of a list may grow into each other's share
+    for (std::size_t p = range.begin; p < range.end; ++p) {
+      const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
+      const auto way = domain_.way(grains.place(i), grains.place(j));
+      const double reach = grains.radius[i] + grains.radius[j];
+      if (dot(way, way) < (reach + skins_.near) * (reach + skins_.near))
+        pairs.add(far_.i[p], far_.j[p], reach);
+    }
+  };
+  parts_.resize(team.size() - 1);
+  team.split(far_.size(), [&](Part range, std::size_t k) { gather(range, k == 0 ? near_ : parts_[k - 1]); });
+  for (const auto& part : parts_) near_.append(part);
   remember(grains, near_places_);
   ++near_builds_;
 }
 
 template <int D>
-const PairList& NeighbourList<D>::near(const Grains<D>& grains) {
+const PairList& NeighbourList<D>::near(const Grains<D>& grains, Team& team) {
   const bool first = near_builds_ == 0;
-  if (first || moved(grains, near_places_, skins_.near / 2)) {
+  if (first || moved(grains, near_places_, skins_.near / 2, team)) {
     // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the
     // way moved.
-    if (first || moved(grains, far_places_, (skins_.far - skins_.near) / 2)) build_far(grains);
-    build_near(grains);
+    if (first || moved(grains, far_places_, (skins_.far - skins_.near) / 2, team)) build_far(grains, team);
+    build_near(grains, team);
   }
   return near_;
 }

@@ -22,8 +22,8 @@ class NeighbourList {
 
   NeighbourList(const Domain<D>& domain, Skins skins, Method method = Method::cells, Isa isa = best_isa());
 
-  /// Pairs that may touch now. WorkError if a place is not a number.
-  const PairList& near(const Grains<D>& grains);
+  /// Pairs that may touch now. NotANumber if a place is not a number.
+  const PairList& near(const Grains<D>& grains, Team& team = Team::alone());
 
   std::int64_t near_builds() const { return near_builds_; }
   std::int64_t far_builds() const { return far_builds_; }
@@ -35,13 +35,14 @@ class NeighbourList {
   Isa isa_;
   CellGrid<D> grid_;
   PairList far_, near_;
+  std::vector<PairList> parts_;                    // of the near list, while it is made
   std::array<Array, D> near_places_, far_places_;  // of the moving grains, when each list was made
   std::int64_t near_builds_ = 0, far_builds_ = 0;
 
-  bool moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit) const;
+  bool moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit, Team& team) const;
   void remember(const Grains<D>& grains, std::array<Array, D>& places) const;
-  void build_far(const Grains<D>& grains);
-  void build_near(const Grains<D>& grains);
+  void build_far(const Grains<D>& grains, Team& team);
+  void build_near(const Grains<D>& grains, Team& team);
 };
 
 }  // namespace chute::search

@@ -4,6 +4,7 @@
 
 #include "core/domain.hpp"
 #include "core/grains.hpp"
+#include "core/team.hpp"
 
 namespace chute::search {
 
@@ -26,6 +27,11 @@ struct PairList {
     j.reserve(count);
     reach_squared.reserve(count);
   }
+  void append(const PairList& other) {
+    i.insert(i.end(), other.i.begin(), other.i.end());
+    j.insert(j.end(), other.j.begin(), other.j.end());
+    reach_squared.insert(reach_squared.end(), other.reach_squared.begin(), other.reach_squared.end());
+  }
   void add(std::int32_t first, std::int32_t second, double reach) {
     i.push_back(first);
     j.push_back(second);
@@ -37,10 +43,14 @@ struct PairList {
 template <int D>
 class CellGrid {
  public:
-  void find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs);
+  void find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs,
+            Team& team = Team::alone());
 
  private:
-  std::vector<std::int32_t> cell_of_, start_, member_, row_;  // kept, so that a rebuild allocates nothing new
+  // kept, so that a rebuild allocates nothing new
+  std::vector<std::int32_t> cell_of_, start_, member_;
+  std::vector<std::vector<std::int32_t>> row_;  // for each of the team
+  std::vector<PairList> parts_;
 };
 
 /// The slow exact twin of CellGrid: looks at every pair, O(N²).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace chute::soft {
 namespace {
@@ -27,7 +28,7 @@ struct TouchKernel {
   const std::int32_t *first, *second;
   const double* reach_squared;
   Vec<D> length, half;
-  std::size_t count;
+  Part range;
   std::int64_t* hit;
 
   void operator()() const {
@@ -35,10 +36,10 @@ struct TouchKernel {
     const auto *i = first, *j = second;
     const auto* reach2 = reach_squared;
     const auto full = length, fold = half;
-    const auto n = count;
+    const auto [begin, end] = range;
     auto* out = hit;
     CHUTE_VECTOR_LOOP
-    for (std::size_t p = 0; p < n; ++p) {
+    for (std::size_t p = begin; p < end; ++p) {
       double d2 = 0;
       for (int k = 0; k < D; ++k) {
         const double d = Domain<D>::nearest_image(r[k][j[p]] - r[k][i[p]], full[k], fold[k]);
@@ -58,7 +59,7 @@ struct GeometryKernel {
   const double *radius, *inverse_mass;
   const std::int32_t *first, *second;
   Vec<D> length, half;
-  std::size_t count;
+  Part range;
   std::array<double*, D> normal;
   double *overlap, *closing, *m_eff;
   std::array<double*, T> slip;
@@ -69,12 +70,12 @@ struct GeometryKernel {
     const auto *R = radius, *inv_m = inverse_mass;
     const auto *fi = first, *se = second;
     const auto full = length, fold = half;
-    const auto count_ = count;
+    const auto [begin, end] = range;
     const auto n_out = normal;
     auto *xi_out = overlap, *closing_out = closing, *m_out = m_eff;
     const auto slip_out = slip;
     CHUTE_VECTOR_LOOP
-    for (std::size_t c = 0; c < count_; ++c) {
+    for (std::size_t c = begin; c < end; ++c) {
       const auto i = fi[c], j = se[c];
       Vec<D> n, dv;
       for (int k = 0; k < D; ++k) {
@@ -108,17 +109,17 @@ struct NormalKernel {
   Law law;
   double least;  // the force is clipped there: 0 without attraction, else −∞
   const double *overlap, *closing, *m_eff, *r_eff;
-  std::size_t count;
+  Part range;
   double *force, *loss;
 
   void operator()() const {
     const Law f = law;
     const double floor = least;
     const auto *xi = overlap, *dxi = closing, *m = m_eff, *R = r_eff;
-    const auto n = count;
+    const auto [begin, end] = range;
     auto *force_out = force, *loss_out = loss;
     CHUTE_VECTOR_LOOP
-    for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t c = begin; c < end; ++c) {
       const auto result = f(xi[c], dxi[c], laws::Pair(m[c], R[c]));
       const double clipped = result.total < floor ? floor : result.total;
       force_out[c] = clipped;
@@ -131,9 +132,9 @@ struct NormalKernel {
 template <class Law>
 void remembering_normal(const Law& law, std::array<double*, static_cast<std::size_t>(Law::memory)> columns,
                         double inverse_duration, const double* overlap, const double* closing,
-                        const double* m_eff, const double* r_eff, std::size_t count, double* force,
-                        double* loss, double* stored) {
-  for (std::size_t c = 0; c < count; ++c) {
+                        const double* m_eff, const double* r_eff, Part range, double* force, double* loss,
+                        double* stored) {
+  for (std::size_t c = range.begin; c < range.end; ++c) {
     std::array<double, static_cast<std::size_t>(Law::memory)> memory;
     for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = columns[k][c];
     const auto result = law(overlap[c], closing[c], laws::Pair(m_eff[c], r_eff[c]), memory);
@@ -149,7 +150,7 @@ struct ShearKernel {
   Law law;
   std::array<const double*, T> slip;
   const double *normal_force, *m_eff;
-  std::size_t count;
+  Part range;
   std::array<double*, T> force;
   double* loss;
 
@@ -157,11 +158,11 @@ struct ShearKernel {
     const Law f = law;
     const auto v_s = slip;
     const auto *f_n = normal_force, *m = m_eff;
-    const auto n = count;
+    const auto [begin, end] = range;
     const auto force_out = force;
     auto* loss_out = loss;
     CHUTE_VECTOR_LOOP
-    for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t c = begin; c < end; ++c) {
       Vec<T> v;
       for (int k = 0; k < T; ++k) v[k] = v_s[k][c];
       const Vec<T> result = f(v, f_n[c], m[c]);
@@ -176,10 +177,11 @@ struct ShearKernel {
 /// spring is exact. A force that is there at once when a contact begins or ends acts for half a step before
 /// or after, as it does in the integration.
 template <class Law, int D>
-void remembering_shear(const Law& law, ContactMemory<D>& memory, double duration, Contacts<D>& contacts) {
+void remembering_shear(const Law& law, ContactMemory<D>& memory, double duration, Part range,
+                       Contacts<D>& contacts) {
   constexpr int T = turns<D>;
   const double inverse_duration = duration > 0 ? 1 / duration : 0;
-  for (std::size_t c = 0; c < contacts.count; ++c) {
+  for (std::size_t c = range.begin; c < range.end; ++c) {
     laws::Slip<T> slip{
         {}, contacts.normal_force[c], contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c])};
     Vec<T> before, way;
@@ -229,35 +231,44 @@ ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::Contact& la
 
 template <int D>
 void ContactStages<D>::find_touching(const search::PairList& pairs, const Grains<D>& grains,
-                                     Contacts<D>& contacts) {
+                                     Contacts<D>& contacts, Team& team) {
   const std::size_t n = pairs.size();
-  if (hit_.size() < n) hit_.resize(n), touching_.resize(n + 1);
-  run_kernel(
-      isa_, TouchKernel<D>{pointers(grains.position), pairs.i.data(), pairs.j.data(),
-                           pairs.reach_squared.data(), domain_.length, 0.5 * domain_.length, n, hit_.data()});
-  std::size_t count = 0;
-  for (std::size_t p = 0; p < n; ++p) {  // without a branch: which pairs touch is not predictable
-    touching_[count] = static_cast<std::int32_t>(p);
-    count += static_cast<std::size_t>(hit_[p]);
-  }
-  contacts.reserve(count);
-  contacts.count = count;
-  for (std::size_t c = 0; c < count; ++c) {
-    contacts.i[c] = pairs.i[static_cast<std::size_t>(touching_[c])];
-    contacts.j[c] = pairs.j[static_cast<std::size_t>(touching_[c])];
+  if (hit_.size() < n) hit_.resize(n), touching_.resize(n);
+  found_.resize(team.size());
+  team.split(n, [&](Part range, std::size_t member) {
+    run_kernel(isa_, TouchKernel<D>{pointers(grains.position), pairs.i.data(), pairs.j.data(),
+                                    pairs.reach_squared.data(), domain_.length, 0.5 * domain_.length, range,
+                                    hit_.data()});
+    std::size_t end = range.begin;
+    for (std::size_t p = range.begin; p < range.end;
+         ++p) {  // without a branch: which touch is not predictable
+      touching_[end] = static_cast<std::int32_t>(p);
+      end += static_cast<std::size_t>(hit_[p]);
+    }
+    found_[member] = end - range.begin;
+  });
+  contacts.count = std::accumulate(found_.begin(), found_.end(), std::size_t{0});
+  contacts.reserve(contacts.count);
+  std::size_t c = 0;
+  for (std::size_t member = 0; member < found_.size(); ++member) {
+    const auto begin = team.part(n, member).begin;
+    for (std::size_t k = 0; k < found_[member]; ++k, ++c) {
+      contacts.i[c] = pairs.i[static_cast<std::size_t>(touching_[begin + k])];
+      contacts.j[c] = pairs.j[static_cast<std::size_t>(touching_[begin + k])];
+    }
   }
 }
 
 template <int D>
-void ContactStages<D>::geometry(const Grains<D>& grains, Contacts<D>& contacts) const {
+void ContactStages<D>::geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const {
   run_kernel(isa_,
              GeometryKernel<D>{pointers(grains.position), pointers(grains.velocity), pointers(grains.spin),
                                grains.radius.data(), grains.inverse_mass.data(), contacts.i.data(),
-                               contacts.j.data(), domain_.length, 0.5 * domain_.length, contacts.count,
+                               contacts.j.data(), domain_.length, 0.5 * domain_.length, range,
                                pointers(contacts.normal), contacts.overlap.data(), contacts.closing.data(),
                                contacts.m_eff.data(), pointers(contacts.slip)});
   if (!needs_radius_) return;
-  for (std::size_t c = 0; c < contacts.count; ++c) {
+  for (std::size_t c = range.begin; c < range.end; ++c) {
     const double a = grains.radius[static_cast<std::size_t>(contacts.i[c])];
     const double b = grains.radius[static_cast<std::size_t>(contacts.j[c])];
     contacts.r_eff[c] = a * b / (a + b);
@@ -266,19 +277,27 @@ void ContactStages<D>::geometry(const Grains<D>& grains, Contacts<D>& contacts) 
 
 template <int D>
 void ContactStages<D>::evaluate(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
-                                double duration) {
-  find_touching(pairs, grains, contacts);
-  geometry(grains, contacts);
-  if (memory_.needed()) {
-    memory_.carry(grains, contacts, duration);
-    std::fill_n(contacts.stored.begin(), contacts.count, 0.0);
+                                double duration, Team& team) {
+  find_touching(pairs, grains, contacts, team);
+  const auto laws = [&](Part range) {
+    normal_forces(range, contacts, duration);
+    shear_forces(range, contacts, duration);
+  };
+  if (!memory_.needed()) {
+    team.split(contacts.count, [&](Part range, std::size_t) {
+      geometry(grains, range, contacts);
+      laws(range);
+    });
+    return;
   }
-  normal_forces(contacts, duration);
-  shear_forces(contacts, duration);
+  team.split(contacts.count, [&](Part range, std::size_t) { geometry(grains, range, contacts); });
+  memory_.carry(grains, contacts, duration);
+  std::fill_n(contacts.stored.begin(), contacts.count, 0.0);
+  team.split(contacts.count, [&](Part range, std::size_t) { laws(range); });
 }
 
 template <int D>
-void ContactStages<D>::normal_forces(Contacts<D>& contacts, double duration) {
+void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double duration) {
   const double inverse_duration = duration > 0 ? 1 / duration : 0;
   std::visit(
       [&]<class Law>(const Law& law) {
@@ -289,55 +308,92 @@ void ContactStages<D>::normal_forces(Contacts<D>& contacts, double duration) {
           std::array<double*, static_cast<std::size_t>(Law::memory)> columns;
           for (int k = 0; k < Law::memory; ++k)
             columns[static_cast<std::size_t>(k)] = memory_.normal_column(k);
-          remembering_normal(law, columns, inverse_duration, xi, dxi, m, R, contacts.count, force, loss,
+          remembering_normal(law, columns, inverse_duration, xi, dxi, m, R, range, force, loss,
                              contacts.stored.data());
         } else {
           const double least = laws_.attraction ? -std::numeric_limits<double>::infinity() : 0.0;
-          run_kernel(isa_, NormalKernel<Law>{law, least, xi, dxi, m, R, contacts.count, force, loss});
+          run_kernel(isa_, NormalKernel<Law>{law, least, xi, dxi, m, R, range, force, loss});
         }
       },
       laws_.normal);
 }
 
 template <int D>
-void ContactStages<D>::shear_forces(Contacts<D>& contacts, double duration) {
+void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double duration) {
   const std::array<Array, turns<D>>& slip = contacts.slip;
   std::visit(
       [&]<class Law>(const Law& law) {
         if constexpr (laws::ShearWithMemory<Law>)
-          remembering_shear<Law, D>(law, memory_, duration, contacts);
+          remembering_shear<Law, D>(law, memory_, duration, range, contacts);
         else
           run_kernel(isa_, ShearKernel<Law, turns<D>>{
                                law, pointers(slip), contacts.normal_force.data(), contacts.m_eff.data(),
-                               contacts.count, pointers(contacts.shear_force), contacts.shear_loss.data()});
+                               range, pointers(contacts.shear_force), contacts.shear_loss.data()});
       },
       laws_.shear);
 }
 
 template <int D>
 void ContactStages<D>::apply(const Contacts<D>& contacts, const Grains<D>& grains,
-                             std::array<Array, D>& force, std::array<Array, turns<D>>& torque) const {
-  for (std::size_t c = 0; c < contacts.count; ++c) {
+                             std::array<Array, D>& force, std::array<Array, turns<D>>& torque,
+                             Team& team) const {
+  team.run([&](std::size_t member) {
+    Part own = team.part(grains.moving, member);
+    if (member + 1 == team.size()) own.end = grains.size();  // with the bed
+    apply_to(own, contacts, grains, force, torque);
+  });
+}
+
+/// A grain's sums are in the order of its contacts, whoever computes them: those with grains before the
+/// range, which come first, and then those that begin in it.
+template <int D>
+void ContactStages<D>::apply_to(Part own, const Contacts<D>& contacts, const Grains<D>& grains,
+                                std::array<Array, D>& force, std::array<Array, turns<D>>& torque) const {
+  for (auto& f : force)
+    std::fill(f.begin() + static_cast<std::ptrdiff_t>(own.begin),
+              f.begin() + static_cast<std::ptrdiff_t>(own.end), 0.0);
+  for (auto& t : torque)
+    std::fill(t.begin() + static_cast<std::ptrdiff_t>(own.begin),
+              t.begin() + static_cast<std::ptrdiff_t>(own.end), 0.0);
+  const auto add = [&](std::size_t c, bool to_i, bool to_j) {
     const auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
     Vec<D> f, n;
     for (int k = 0; k < D; ++k) n[k] = contacts.normal[k][c];
     f = contacts.normal_force[c] * n;
-    const double Ri = grains.radius[i], Rj = grains.radius[j];
+    Vec<turns<D>> turn;  // both grains: the lever arms and the forces are opposite
     if constexpr (D == 2) {
       const double f_s = contacts.shear_force[0][c];
       f[0] += f_s * n[1];
       f[1] -= f_s * n[0];
-      torque[0][i] += Ri * f_s;  // both grains: the lever arms and the forces are opposite
-      torque[0][j] += Rj * f_s;
+      turn[0] = f_s;
     } else {
       Vec<3> f_s;
       for (int k = 0; k < 3; ++k) f_s[k] = contacts.shear_force[k][c];
       f = f + f_s;
-      const auto turn = cross(n, f_s);
-      for (int k = 0; k < 3; ++k) torque[k][i] -= Ri * turn[k], torque[k][j] -= Rj * turn[k];
+      turn = -1.0 * cross(n, f_s);
     }
-    for (int k = 0; k < D; ++k) force[k][i] -= f[k], force[k][j] += f[k];
-  }
+    const double Ri = grains.radius[i], Rj = grains.radius[j];
+    if (to_i)
+      for (int k = 0; k < turns<D>; ++k) torque[k][i] += Ri * turn[k];
+    if (to_j)
+      for (int k = 0; k < turns<D>; ++k) torque[k][j] += Rj * turn[k];
+    if (to_i)
+      for (int k = 0; k < D; ++k) force[k][i] -= f[k];
+    if (to_j)
+      for (int k = 0; k < D; ++k) force[k][j] += f[k];
+  };
+  const auto until = contacts.i.begin() + static_cast<std::ptrdiff_t>(contacts.count);
+  const auto contact_of = [&](std::size_t grain) {
+    return static_cast<std::size_t>(
+        std::lower_bound(contacts.i.begin(), until, static_cast<std::int32_t>(grain)) - contacts.i.begin());
+  };
+  const std::size_t first = contact_of(own.begin), last = contact_of(own.end);
+  const auto is_own = [&](std::int32_t j) {
+    return static_cast<std::size_t>(j) >= own.begin && static_cast<std::size_t>(j) < own.end;
+  };
+  for (std::size_t c = 0; c < first; ++c)
+    if (is_own(contacts.j[c])) add(c, false, true);
+  for (std::size_t c = first; c < last; ++c) add(c, true, is_own(contacts.j[c]));
 }
 
 template <int D>

@@ -12,9 +12,9 @@
 namespace chute::soft {
 
 /// The stages that turn places and velocities into forces, each a vectorised loop over arrays:
-/// find_touching → geometry → memory → normal → shear → apply. A law is known inside its own stage only, so
-/// the compiled loops add up over the laws instead of multiplying. Where no law has a memory, that stage does
-/// nothing.
+/// find_touching → geometry → memory → normal → shear → apply. Each is split among a team by ranges of pairs,
+/// contacts or grains. A law is known inside its own stage only, so the compiled loops add up over the laws
+/// instead of multiplying. Where no law has a memory, that stage does nothing.
 template <int D>
 class ContactStages {
  public:
@@ -25,11 +25,11 @@ class ContactStages {
   /// before. `duration` is the time since the previous call; with 0 nothing happens to what the contacts
   /// remember, but for limits that depend on the present normal force.
   void evaluate(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
-                double duration = 0);
+                double duration = 0, Team& team = Team::alone());
 
-  /// Adds the forces and torques of the contacts, in their order, to those of the grains.
+  /// Sums the forces and torques of the contacts, in their order, on each grain.
   void apply(const Contacts<D>& contacts, const Grains<D>& grains, std::array<Array, D>& force,
-             std::array<Array, turns<D>>& torque) const;
+             std::array<Array, turns<D>>& torque, Team& team) const;
 
   /// Energy stored in the contacts, in both directions.
   double elastic_energy(const Contacts<D>& contacts) const;
@@ -47,10 +47,15 @@ class ContactStages {
       hit_;  // 1 where a pair touches; as wide as a double, to stay in the same vector lanes
   std::vector<std::int32_t> touching_;
 
-  void find_touching(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts);
-  void geometry(const Grains<D>& grains, Contacts<D>& contacts) const;
-  void normal_forces(Contacts<D>& contacts, double duration);
-  void shear_forces(Contacts<D>& contacts, double duration);
+  std::vector<std::size_t> found_;  // by each of the team
+
+  void find_touching(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
+                     Team& team);
+  void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
+  void normal_forces(Part range, Contacts<D>& contacts, double duration);
+  void shear_forces(Part range, Contacts<D>& contacts, double duration);
+  void apply_to(Part own, const Contacts<D>& contacts, const Grains<D>& grains, std::array<Array, D>& force,
+                std::array<Array, turns<D>>& torque) const;
 };
 
 }  // namespace chute::soft

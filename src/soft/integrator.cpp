@@ -10,10 +10,11 @@ struct Column {
   double *r, *v, *a, *b, *c;
   const double *force, *inverse_inertia;
   double gravity;
-  std::size_t count;
+  Part range;
 };
 
-/// c_0 = 19/90, c_1 = 3/4, c_2 = 1, c_3 = 1/2, c_4 = 1/12 (2.14), turned into weights of Δa for plain derivatives.
+/// c_0 = 19/90, c_1 = 3/4, c_2 = 1, c_3 = 1/2, c_4 = 1/12 (2.14), turned into weights of Δa for plain
+/// derivatives.
 struct Weights {
   double r, v, b, c;
   explicit Weights(double dt)
@@ -26,11 +27,12 @@ struct Gear5 {
   double dt;
 
   void operator()() const {
-    const auto [r, v, a, b, c, force, inverse_inertia, g, n] = column;
+    const auto [r, v, a, b, c, force, inverse_inertia, g, range] = column;
+    const auto [begin, end] = range;
     const Weights weight(dt);
     const double h = dt, h2 = dt * dt / 2, h3 = dt * dt * dt / 6, h4 = dt * dt * dt * dt / 24;
     CHUTE_VECTOR_LOOP
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       double ri = r[i], vi = v[i], ai = a[i], bi = b[i], ci = c[i];
       if constexpr (Correct) {
         const double delta = force[i] * inverse_inertia[i] + g - ai;  // (2.12)
@@ -61,10 +63,11 @@ struct VelocityVerlet {
   double dt;
 
   void operator()() const {
-    const auto [r, v, a, b, c, force, inverse_inertia, g, n] = column;
+    const auto [r, v, a, b, c, force, inverse_inertia, g, range] = column;
+    const auto [begin, end] = range;
     const double h = dt, half = dt / 2;
     CHUTE_VECTOR_LOOP
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       double ri = r[i], vi = v[i], ai = a[i];
       if constexpr (Correct) {
         ai = force[i] * inverse_inertia[i] + g;
@@ -85,15 +88,15 @@ struct VelocityVerlet {
 struct Outside {
   const double* place;
   double lower, upper;
-  std::size_t count;
+  Part range;
   std::int64_t* any;
   void operator()() const {
     const auto x = place;
     const double low = lower, high = upper;
-    const auto n = count;
+    const auto [begin, end] = range;
     std::int64_t found = 0;
     CHUTE_VECTOR_LOOP
-    for (std::size_t i = 0; i < n; ++i) found |= (x[i] < low) | (x[i] >= high);
+    for (std::size_t i = begin; i < end; ++i) found |= (x[i] < low) | (x[i] >= high);
     *any = found;
   }
 };
@@ -123,35 +126,39 @@ void Integrator<D>::start(Grains<D>& grains, const std::array<Array, D>& force,
 template <int D>
 template <bool Correct, bool Predict>
 void Integrator<D>::pass(Grains<D>& grains, const std::array<Array, D>* force,
-                         const std::array<Array, turns<D>>* torque) {
-  for (int k = 0; k < degrees; ++k) {
-    const bool shift = k < D;
-    const Column column{shift ? grains.position[k].data() : grains.angle[k - D].data(),
-                        shift ? grains.velocity[k].data() : grains.spin[k - D].data(),
-                        derivatives_[0][k].data(),
-                        derivatives_[1][k].data(),
-                        derivatives_[2][k].data(),
-                        !Correct ? nullptr : shift ? (*force)[k].data() : (*torque)[k - D].data(),
-                        shift ? grains.inverse_mass.data() : grains.inverse_inertia.data(),
-                        shift ? gravity_[k] : 0.0,
-                        grains.moving};
-    if (scheme_ == Scheme::gear5)
-      run_kernel(isa_, Gear5<Correct, Predict>{column, dt_});
-    else
-      run_kernel(isa_, VelocityVerlet<Correct, Predict>{column, dt_});
-  }
-  if constexpr (Predict) wrap(grains);
+                         const std::array<Array, turns<D>>* torque, Team& team) {
+  team.split(grains.moving, [&](Part range, std::size_t) {
+    for (int k = 0; k < degrees; ++k) {
+      const bool shift = k < D;
+      const Column column{shift ? grains.position[k].data() : grains.angle[k - D].data(),
+                          shift ? grains.velocity[k].data() : grains.spin[k - D].data(),
+                          derivatives_[0][k].data(),
+                          derivatives_[1][k].data(),
+                          derivatives_[2][k].data(),
+                          !Correct ? nullptr
+                          : shift  ? (*force)[k].data()
+                                   : (*torque)[k - D].data(),
+                          shift ? grains.inverse_mass.data() : grains.inverse_inertia.data(),
+                          shift ? gravity_[k] : 0.0,
+                          range};
+      if (scheme_ == Scheme::gear5)
+        run_kernel(isa_, Gear5<Correct, Predict>{column, dt_});
+      else
+        run_kernel(isa_, VelocityVerlet<Correct, Predict>{column, dt_});
+    }
+    if constexpr (Predict) wrap(grains, range);
+  });
 }
 
 template <int D>
-void Integrator<D>::wrap(Grains<D>& grains) const {
+void Integrator<D>::wrap(Grains<D>& grains, Part range) const {
   for (int k = 0; k < D; ++k) {
     if (!domain_.periodic(k)) continue;
     const double lower = domain_.lower[k], length = domain_.length[k];
     std::int64_t any = 0;
-    run_kernel(isa_, Outside{grains.position[k].data(), lower, lower + length, grains.moving, &any});
+    run_kernel(isa_, Outside{grains.position[k].data(), lower, lower + length, range, &any});
     if (!any) continue;
-    for (std::size_t i = 0; i < grains.moving; ++i) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
       double& x = grains.position[k][i];
       if (x < lower) x += length, --grains.wraps[k][i];
       if (x >= lower + length) x -= length, ++grains.wraps[k][i];
@@ -160,18 +167,18 @@ void Integrator<D>::wrap(Grains<D>& grains) const {
 }
 
 template <int D>
-void Integrator<D>::predict(Grains<D>& grains) {
-  pass<false, true>(grains, nullptr, nullptr);
+void Integrator<D>::predict(Grains<D>& grains, Team& team) {
+  pass<false, true>(grains, nullptr, nullptr, team);
 }
 template <int D>
 void Integrator<D>::correct(Grains<D>& grains, const std::array<Array, D>& force,
-                            const std::array<Array, turns<D>>& torque) {
-  pass<true, false>(grains, &force, &torque);
+                            const std::array<Array, turns<D>>& torque, Team& team) {
+  pass<true, false>(grains, &force, &torque, team);
 }
 template <int D>
 void Integrator<D>::correct_and_predict(Grains<D>& grains, const std::array<Array, D>& force,
-                                        const std::array<Array, turns<D>>& torque) {
-  pass<true, true>(grains, &force, &torque);
+                                        const std::array<Array, turns<D>>& torque, Team& team) {
+  pass<true, true>(grains, &force, &torque, team);
 }
 
 template class Integrator<2>;

@@ -2,18 +2,19 @@
 #include "core/domain.hpp"
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
+#include "core/team.hpp"
 
 namespace chute::soft {
 
 enum class Scheme { gear5, verlet };
 
-/// Integrates translation and rotation of the moving grains. A step is predict → forces → correct; where nothing is
-/// looked at between two steps, correct and predict are one pass over the memory.
+/// Integrates translation and rotation of the moving grains. A step is predict → forces → correct; where
+/// nothing is looked at between two steps, correct and predict are one pass over the memory.
 ///
-/// `gear5`: the fifth-order predictor-corrector, thesis (2.11) to (2.14), for forces that depend on places and
-/// velocities. The printed (2.13) adds c_k Δa to the plain derivatives; the coefficients belong to the scaled ones
-/// (δt^k/k! d^k r/dt^k), which gives the weights in `Weights`.
-/// `verlet`: velocity Verlet; forces see the velocities of the half step, as in LAMMPS.
+/// `gear5`: the fifth-order predictor-corrector, thesis (2.11) to (2.14), for forces that depend on places
+/// and velocities. The printed (2.13) adds c_k Δa to the plain derivatives; the coefficients belong to the
+/// scaled ones (δt^k/k! d^k r/dt^k), which gives the weights in `Weights`. `verlet`: velocity Verlet; forces
+/// see the velocities of the half step, as in LAMMPS.
 ///
 /// 3D rotation integrates the components of the spin; all grains are spheres, so no frame turns with them.
 template <int D>
@@ -26,11 +27,11 @@ class Integrator {
 
   /// Takes the accelerations of the start from the forces there.
   void start(Grains<D>& grains, const std::array<Array, D>& force, const std::array<Array, turns<D>>& torque);
-  void predict(Grains<D>& grains);
+  void predict(Grains<D>& grains, Team& team = Team::alone());
   void correct(Grains<D>& grains, const std::array<Array, D>& force,
-               const std::array<Array, turns<D>>& torque);
+               const std::array<Array, turns<D>>& torque, Team& team = Team::alone());
   void correct_and_predict(Grains<D>& grains, const std::array<Array, D>& force,
-                           const std::array<Array, turns<D>>& torque);
+                           const std::array<Array, turns<D>>& torque, Team& team = Team::alone());
 
   /// Higher derivatives, for checkpoints: [0] acceleration, [1], [2] its derivatives (gear5 only).
   std::array<std::array<Array, degrees>, 3>& derivatives() { return derivatives_; }
@@ -45,9 +46,9 @@ class Integrator {
   std::array<std::array<Array, degrees>, 3> derivatives_;
 
   template <bool Correct, bool Predict>
-  void pass(Grains<D>& grains, const std::array<Array, D>* force,
-            const std::array<Array, turns<D>>* torque);
-  void wrap(Grains<D>& grains) const;
+  void pass(Grains<D>& grains, const std::array<Array, D>* force, const std::array<Array, turns<D>>* torque,
+            Team& team);
+  void wrap(Grains<D>& grains, Part range) const;
 };
 
 }  // namespace chute::soft

@@ -22,6 +22,7 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
       stages_(setup.domain, setup.laws, setup.isa,
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
+      team_(std::make_unique<Team>(setup.threads)),
       touches_(grains_.moving, setup.contact_time) {
   for (auto& f : force_) f.resize(grains_.size());
   for (auto& t : torque_) t.resize(grains_.size());
@@ -36,29 +37,27 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
 template <int D>
 void SoftEngine<D>::advance_to(std::int64_t step) {
   if (step <= step_) return;
-  integrator_.predict(grains_);
+  integrator_.predict(grains_, *team_);
   for (;;) {
     ++step_;
     forces(setup_.time_step);
     account(setup_.time_step);
     if (collecting_) find_impacts();
     if (step_ == step) break;
-    integrator_.correct_and_predict(grains_, force_, torque_);
+    integrator_.correct_and_predict(grains_, force_, torque_, *team_);
   }
-  integrator_.correct(grains_, force_, torque_);
+  integrator_.correct(grains_, force_, torque_, *team_);
   check_floor();
 }
 
 template <int D>
 void SoftEngine<D>::forces(double duration) {
-  for (auto& f : force_) std::fill(f.begin(), f.end(), 0.0);
-  for (auto& t : torque_) std::fill(t.begin(), t.end(), 0.0);
   try {
-    stages_.evaluate(list_.near(grains_), grains_, contacts_, duration);
+    stages_.evaluate(list_.near(grains_, *team_), grains_, contacts_, duration, *team_);
   } catch (const NotANumber& error) {
     leave_physics(error.grain, "its place is not a number: the time step is too long for these forces");
   }
-  stages_.apply(contacts_, grains_, force_, torque_);
+  stages_.apply(contacts_, grains_, force_, torque_, *team_);
 }
 
 template <int D>

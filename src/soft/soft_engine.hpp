@@ -22,6 +22,7 @@ struct SoftSetup {
   double contact_time = 0;  ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
   search::Method search = search::Method::cells;
   Isa isa = best_isa();
+  int threads = 1;  ///< results do not depend on it
 };
 
 /// Time-step driven molecular dynamics of soft grains, thesis 2.1.1. A step:
@@ -61,6 +62,7 @@ class SoftEngine final : public Engine {
   std::vector<Impact> impacts_;
   std::vector<std::pair<std::int32_t, std::int32_t>> touched_;  // contacts of the previous step
   TouchLog touches_;
+  std::unique_ptr<Team> team_;
 
   void forces(double duration);
   void account(double duration);

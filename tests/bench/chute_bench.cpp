@@ -1,14 +1,15 @@
-// Speed of the dense flow of thesis 5.2 (scenes/chute-2d.toml) and larger copies of it, one thread, after
-// five units of time in which it settles. `grain_steps/s` is the number to compare; memory is what the
-// process grew by.
+// Speed of the dense flow of thesis 5.2 (scenes/chute-2d.toml) and larger copies of it, after five units of
+// time in which it settles; beyond 3000 discs, copies of that settled flow side by side, with ids in no
+// order, as they are after a long time. `grain_steps/s` is the number to compare (of the wall clock); memory
+// is what the process grew by.
 //   chute_bench --benchmark_filter='flow/300/.*'
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <map>
-#include <sstream>
 
+#include "core/random.hpp"
 #include "run/engine_factory.hpp"
 #include "scene/start.hpp"
 #include "soft/soft_engine.hpp"
@@ -26,38 +27,68 @@ scene::Scene flow(std::int64_t grains) {
 }
 
 /// As run::make_engine, with a choice of the instruction set.
-soft::SoftEngine<2> engine_of(const scene::Scene& scene, Isa isa) {
-  auto start = scene::make_start(scene);
+soft::SoftSetup<2> setup_of(const scene::Scene& scene, const Domain<2>& domain, Isa isa) {
   const double theta = scene.incline.theta(), g = scene.incline.gravity;
   soft::SoftSetup<2> setup;
-  setup.domain = start.domain;
+  setup.domain = domain;
   setup.gravity = {{g * std::sin(theta), -g * std::cos(theta)}};
   setup.laws = scene.contact.laws(scene.reference_pair());
   setup.time_step = run::time_step(scene);
   setup.skins = soft::usual_skins<2>(scene.mean_diameter());
   setup.isa = isa;
+  return setup;
+}
+soft::SoftEngine<2> engine_of(const scene::Scene& scene, Isa isa) {
+  auto start = scene::make_start(scene);
+  const auto setup = setup_of(scene, start.domain, isa);
   return {std::move(start.grains), setup};
 }
 
 /// The settled flow, made once for each size: it is the same bytes with every instruction set.
-const std::string& settled(std::int64_t grains) {
-  static std::map<std::int64_t, std::string> states;
-  auto& state = states[grains];
-  if (state.empty()) {
+const Grains<2>& settled(std::int64_t grains) {
+  static std::map<std::int64_t, Grains<2>> states;
+  if (!states.contains(grains)) {
     auto engine = engine_of(flow(grains), best_isa());
     engine.advance_to(std::llround(settling / engine.time_step()));
-    std::ostringstream out;
-    engine.save(out);
-    state = out.str();
+    states.emplace(grains, engine.state());
   }
-  return state;
+  return states.at(grains);
 }
 
-void steps(benchmark::State& state, std::int64_t grains, Isa isa) {
-  auto engine = engine_of(flow(grains), isa);
-  std::istringstream in(settled(grains));
-  engine.restore(in);
-  const std::int64_t slice = std::max<std::int64_t>(1, 300'000 / grains);
+/// Copies of a settled flow side by side, the moving grains in random order.
+Grains<2> copies(const Grains<2>& tile, double length, std::int64_t count) {
+  std::vector<std::pair<std::size_t, double>> which;
+  for (std::int64_t k = 0; k < count; ++k)
+    for (std::size_t i = 0; i < tile.moving; ++i) which.emplace_back(i, static_cast<double>(k) * length);
+  if (count > 1) {
+    Random random(1, Purpose::start);
+    for (std::size_t k = which.size(); k-- > 1;)
+      std::swap(which[k], which[static_cast<std::size_t>(random.uniform() * static_cast<double>(k + 1))]);
+  }
+  for (std::int64_t k = 0; k < count; ++k)
+    for (std::size_t i = tile.moving; i < tile.size(); ++i)
+      which.emplace_back(i, static_cast<double>(k) * length);
+  Grains<2> all;
+  for (const auto& [i, shift] : which) {
+    all.add(tile.place(i) + Vec<2>{{shift, 0}}, tile.radius[i], tile.mass[i], tile.inertia[i],
+            i < tile.moving);
+    for (int k = 0; k < 2; ++k) all.velocity[k].back() = tile.velocity[k][i];
+    all.spin[0].back() = tile.spin[0][i];
+  }
+  return all;
+}
+
+void steps(benchmark::State& state, std::int64_t grains, Isa isa, int threads) {
+  const auto tile = std::min<std::int64_t>(grains, 3000), count = grains / tile;
+  const auto scene = flow(tile);
+  auto domain = scene::make_start(scene).domain;
+  const double length = domain.length[0];
+  domain.length[0] *= static_cast<double>(count);
+  auto setup = setup_of(scene, domain, isa);
+  setup.threads = threads;
+  soft::SoftEngine<2> engine(copies(settled(tile), length, count), setup);
+  const std::int64_t slice = std::max<std::int64_t>(50, 300'000 / grains);
+  engine.advance_to(slice);  // the first lists
   const auto lists = engine.neighbours().near_builds();
   for (auto _ : state) engine.advance_to(engine.step() + slice);
   const auto done = static_cast<double>(state.iterations() * slice);
@@ -95,12 +126,16 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("memory/100000", memory, 100'000)
       ->Iterations(1)
       ->Unit(benchmark::kMillisecond);
-  for (const std::int64_t grains : {300, 3000, 30'000})
+  for (const std::int64_t grains : {300, 3000, 30'000, 300'000})
     for (const auto& [name, isa] : sets)
-      if (isa <= best_isa())
-        benchmark::RegisterBenchmark(("flow/" + std::to_string(grains) + "/" + name).c_str(), steps, grains,
-                                     isa)
+      for (const int threads : {1, 2}) {
+        if (isa > best_isa() || (threads > 1 && (isa < best_isa() || grains == 300))) continue;
+        const auto title =
+            "flow/" + std::to_string(grains) + "/" + name + "/threads:" + std::to_string(threads);
+        benchmark::RegisterBenchmark(title.c_str(), steps, grains, isa, threads)
+            ->UseRealTime()
             ->Unit(benchmark::kMillisecond);
+      }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

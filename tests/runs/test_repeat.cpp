@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "folder.hpp"
+#include "run/engine_factory.hpp"
 #include "run/run.hpp"
 
 using namespace chute;
@@ -62,6 +63,21 @@ TEST_CASE("the same scene and seed give the same bytes, with any number of threa
   go(flow({"seed=8"}), folder / "d");
   CHECK(results(folder / "d") != expected);
   CHECK(results(folder / "d").at("frames/000000.vtp") != expected.at("frames/000000.vtp"));
+}
+
+TEST_CASE("many grains are shared by threads, and the bytes stay the same") {
+  const auto many = scene::read_scene(
+      CHUTE_SOURCE_DIR "/scenes/demo.toml",
+      {"grains.count=" + std::to_string(2 * run::grains_per_thread + 500), "bed.count=300",
+       "run.duration=0.8", "contact.normal.stiffness=1e4", "contact.tangential.viscosity=50",
+       "output.contacts=false", "output.frames={every=0.4}", "output.profiles={every=0.1}",
+       "output.impacts={from=0.4}"});
+  const Folder folder;
+  go(many, folder / "one");
+  go(many, folder / "two", run::Existing::refuse, {}, 2);
+  const auto expected = results(folder / "one");
+  CHECK(expected.count("frames/000002.vtp") == 1);
+  CHECK(results(folder / "two") == expected);
 }
 
 TEST_CASE("an interrupted and resumed run gives the bytes of an uninterrupted one") {

@@ -71,6 +71,45 @@ TEST_CASE("search, skins and instruction set do not change a bit, 3D") {
   check_same_bytes<3>(small_box(), s, 5'000);
 }
 
+namespace {
+/// From a state after many contacts on: threads that share so little work mostly wait for each other.
+template <int D>
+void check_threads(const Grains<D>& grains, const soft::SoftSetup<D>& usual, std::int64_t warm_up,
+                   std::int64_t steps) {
+  soft::SoftEngine<D> engine(grains, usual);
+  engine.collect_impacts(true);
+  engine.advance_to(warm_up);
+  const auto begin = state(engine);
+  engine.advance_to(warm_up + steps);
+  const auto expected = state(engine);
+  CHECK(expected != begin);
+  for (const int threads : {2, 3, 5}) {
+    INFO("threads " << threads);
+    auto other = usual;
+    other.threads = threads;
+    soft::SoftEngine<D> twin(grains, other);
+    std::istringstream in(begin);
+    twin.restore(in);
+    twin.advance_to(warm_up + steps);
+    CHECK(state(twin) == expected);
+    CHECK(twin.energy().normal_loss == engine.energy().normal_loss);
+  }
+}
+}  // namespace
+
+TEST_CASE("threads do not change a bit") {
+  SmallChute chute;
+  chute.bed = 16, chute.columns = 12, chute.rows = 8;
+  auto s = chute.setup(50);
+  check_threads<2>(chute.grains(), s, 8000, 600);
+  auto box = small_box_setup(50);
+  check_threads<3>(small_box(), box, 4000, 600);
+  s.laws = box.laws = remembering;
+  s.skins = {0.002, 0.004};  // many new lists
+  check_threads<2>(chute.grains(), s, 8000, 600);
+  check_threads<3>(small_box(), box, 4000, 600);
+}
+
 TEST_CASE("the twins of a run differ from another run") {  // so that the comparisons above can fail
   const SmallChute chute;
   auto grains = chute.grains();
