@@ -316,7 +316,7 @@ void draw_sample(DisplayList& list, const Look& look, const Series& series, cons
                 ink.color);
   }
   if (series.kind == Kind::dots) {
-    const auto shape = SeriesPainter::dot_shape(1.6 * look.dot_radius, ink.marker);
+    const auto shape = SeriesPainter::dot_shape(2.2 * look.dot_radius, ink.marker);
     list.items.emplace_back(DotsItem{shape, {{middle, at.y}}, ink.color});
   }
   if (has_markers(series.kind))
