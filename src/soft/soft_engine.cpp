@@ -22,8 +22,8 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
       stages_(setup.domain, setup.laws, setup.isa,
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
-      team_(std::make_unique<Team>(setup.threads)),
-      touches_(grains_.moving, setup.contact_time) {
+      touches_(grains_.moving, setup.contact_time),
+      team_(std::make_unique<Team>(setup.threads)) {
   for (auto& f : force_) f.resize(grains_.size());
   for (auto& t : torque_) t.resize(grains_.size());
   for (int k = 0; k < D; ++k)
