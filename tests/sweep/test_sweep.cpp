@@ -1,0 +1,151 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "folder.hpp"
+#include "scene/start.hpp"
+#include "run/engine_factory.hpp"
+#include "run/run.hpp"
+#include "run/flow.hpp"
+#include "sweep/sweep.hpp"
+
+using namespace chute;
+using namespace chute::sweep;
+using test::content;
+using test::Folder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path ball = CHUTE_SOURCE_DIR "/scenes/sweep-ball.toml";
+const std::vector<std::string> small{"grains.count=3", "run.duration=2", "contact.normal.stiffness=2e5"};
+
+Base base() {
+  auto set = small;
+  set.push_back("sweep.axis=[{key=\"incline.sin\",values=[0.0,0.06]},{key=\"grains.size_ratio\",values=[2.25,3]}]");
+  set.push_back("sweep.seeds=2");
+  return {ball, set};
+}
+
+bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, int shards = 1, bool resume = false) {
+  SweepOptions options{folder, jobs, shard, shards, resume, [](double) { return true; }};
+  return run_sweep(what, options);
+}
+
+}  // namespace
+
+TEST_CASE("independent grains move as each would alone, to the last bit") {
+  auto scene = scene::read_scene(ball, {"sweep=", "grains.count=5", "run.duration=0.5", "grains.start.spread=0.1"});
+  const auto together = run::make_engine(scene);
+  const auto start = scene::make_start(scene);
+  together.engine->advance_to(20000);
+  const auto view = together.engine->grains();
+  for (std::size_t i = 0; i < 5; ++i) {
+    auto alone = scene;
+    alone.grains.count = 1;
+    alone.grains.start.spread = 0;
+    alone.grains.start.x = start.grains.position[0][i];
+    alone.grains.start.velocity = start.grains.velocity[0][i];
+    alone.grains.start.velocity_up = start.grains.velocity[1][i];
+    const auto one = run::make_engine(alone);
+    REQUIRE(one.engine->time_step() == together.engine->time_step());
+    one.engine->advance_to(20000);
+    const auto v = one.engine->grains();
+    CHECK(v.position[0][0] == view.position[0][i]);
+    CHECK(v.position[1][0] == view.position[1][i]);
+    CHECK(v.velocity[0][0] == view.velocity[0][i]);
+    CHECK(v.spin[0][0] == view.spin[0][i]);
+  }
+}
+
+TEST_CASE("grains that may not rotate never spin, and feel friction all the same") {
+  const auto scene = scene::read_scene(ball, {"sweep=", "grains.count=2", "grains.rotation=false", "run.duration=1"});
+  const auto made = run::make_engine(scene);
+  made.engine->advance_to(5000);
+  for (std::size_t i = 0; i < 2; ++i) CHECK(made.engine->grains().spin[0][i] == 0);
+  CHECK(made.engine->energy().shear_loss > 0);
+}
+
+TEST_CASE("a sweep of one start says what a run of it says") {
+  const Folder folder;
+  const std::vector<std::string> one{"grains.independent=", "grains.count=1", "run.duration=8", "incline.sin=0.06"};
+  auto set = one;
+  set.insert(set.end(), {"sweep=", "seed=1"});
+  const auto scene = scene::read_scene(ball, set);
+  const auto outcome = follow(scene, [](double) { return true; });
+  run::RunOptions options;
+  options.directory = folder / "run";
+  run::run_scene(scene, options);
+  const auto flow = run::read_flow(folder / "run");
+  REQUIRE(outcome.starts.size() == 1);
+  CHECK(outcome.starts[0].verdict == flow.verdict);
+  CHECK(outcome.starts[0].v_x.mean == flow.v_x.mean);
+  CHECK(outcome.starts[0].omega.mean == flow.omega.mean);
+}
+
+TEST_CASE("a sweep gives the same tables whatever the jobs and shards, resumed or not") {
+  const Folder folder;
+  CHECK(go(base(), folder / "whole"));
+  const auto table = content(folder / "whole/sweep.csv"), starts = content(folder / "whole/starts.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 2 + 1 + 4);
+  CHECK(std::count(starts.begin(), starts.end(), '\n') == 2 + 1 + 4 * 2 * 3);
+  // on the level line everything stops; at sin θ = 0.06 nothing does
+  CHECK_THAT(table, Catch::Contains("\n0,2.25,6,6,0,") && Catch::Contains("\n0.06,2.25,6,0,"));
+
+  CHECK(go(base(), folder / "jobs", 3));
+  CHECK(content(folder / "jobs/sweep.csv") == table);
+
+  CHECK_FALSE(go(base(), folder / "shards", 1, 2, 3));
+  CHECK_FALSE(fs::exists(folder / "shards/sweep.csv"));
+  CHECK_FALSE(go(base(), folder / "shards", 1, 1, 3));
+  CHECK(go(base(), folder / "shards", 1, 3, 3));
+  CHECK(content(folder / "shards/sweep.csv") == table);
+  CHECK(content(folder / "shards/starts.csv") == starts);
+
+  // some points lost, one damaged: made again
+  int k = 0;
+  for (const auto& point : fs::directory_iterator(folder / "whole/points"))
+    if (++k % 2) test::write(point.path(), k == 1 ? "{" : "");
+  fs::remove(folder / "whole/sweep.csv");
+  CHECK(go(base(), folder / "whole", 1, 1, 1, true));
+  CHECK(content(folder / "whole/sweep.csv") == table);
+}
+
+TEST_CASE("a folder that holds something else is left alone") {
+  const Folder folder;
+  fs::create_directories(folder / "other");
+  test::write(folder / "other/precious.txt", "x");
+  CHECK_THROWS_WITH(go(base(), folder / "other"), Catch::Contains("holds other things"));
+  CHECK(content(folder / "other/precious.txt") == "x");
+
+  CHECK(go(base(), folder / "a", 2));
+  CHECK_THROWS_WITH(go(base(), folder / "a"), Catch::Contains("--resume goes on with it"));
+  auto changed = base();
+  changed.set.push_back("run.duration=3");
+  CHECK_THROWS_WITH(go(changed, folder / "a", 1, 1, 1, true), Catch::Contains("holds another sweep"));
+}
+
+TEST_CASE("a wrong place of the grid is refused before anything is written") {
+  const Folder folder;
+  auto wrong = base();
+  wrong.set.push_back("sweep.axis=[{key=\"contact.normal.restitution\",values=[0.5,1.5]}]");
+  CHECK_THROWS_AS(go(wrong, folder / "a"), InputError);
+  CHECK_FALSE(fs::exists(folder / "a"));
+}
+
+TEST_CASE("the lower boundary of a stiff inelastic ball is that of the corrected closed form") {
+  // e_n = 0.1 and strong friction are near the theory's e_n = 0 without slip: sin θ_AB = 0.02287 for Φ = 2.25
+  const Folder folder;
+  const Base stiff{CHUTE_SOURCE_DIR "/scenes/boundaries-ball.toml",
+                   {"contact.normal.restitution=0.1", "contact.normal.stiffness=2e7", "contact.tangential.friction=0.5",
+                    "contact.tangential.viscosity=1000", "grains.count=6", "run.duration=12",
+                    "sweep.axis=[{key=\"grains.size_ratio\",values=[2.25]}]",
+                    "sweep.boundary={axis={key=\"incline.sin\",from=0.02,to=0.026,count=2},tolerance=0.0002,"
+                    "velocities=[0.2]}"}};
+  CHECK(go(stiff, folder / "a", 2));
+  const auto text = content(folder / "a/boundaries.csv");
+  const auto row = text.substr(text.find("\n2.25,") + 6);
+  const double boundary = std::stod(row);
+  CHECK(boundary == Approx(0.02287).epsilon(0.03));
+  CHECK(boundary > 0.02287 - 0.0001);
+}
