@@ -120,6 +120,17 @@ std::vector<FigureRow> peak(const Curve& curve, std::span<const fs::path> runs) 
   return {{curve.panel, curve.series, curve.at, peaks[wanted].position, {}, peaks[wanted].width}};
 }
 
+/// The rows of a table that tell something: a layer that is nearly always empty has an area fraction, but no
+/// mean velocity worth drawing.
+std::vector<bool> telling(const read::Table& table, const std::string& column) {
+  constexpr double fewest = 0.05;  // grains in the layer, on average
+  std::vector<bool> rows(table.rows.size(), true);
+  if (!table.has("grains") || column.starts_with("eta")) return rows;
+  const auto grains = table.column("grains");
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = grains[i] >= fewest;
+  return rows;
+}
+
 /// A column of a table against another, averaged over runs at equal x.
 std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> runs, const std::string& file,
                                 const std::string& against) {
@@ -130,10 +141,11 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
   for (const auto& run : runs) {
     const auto table = read::read_table(run / file);
     const auto x = table.column(against), y = table.column(curve.column);
+    const auto tells = telling(table, curve.column);
     const auto error = curve.column + "_err";
     const auto err = table.has(error) ? table.column(error) : std::vector<double>(x.size(), NAN);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (std::isfinite(y[i])) at[x[i]].y.push_back(y[i]), at[x[i]].err.push_back(err[i]);
+      if (tells[i] && std::isfinite(y[i])) at[x[i]].y.push_back(y[i]), at[x[i]].err.push_back(err[i]);
   }
   std::vector<FigureRow> rows;
   for (const auto& [x, values] : at) {

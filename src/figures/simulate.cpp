@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/side_by_side.hpp"
 #include "figures/extract.hpp"
+#include "run/flow.hpp"
 #include "run/run.hpp"
 #include "run/version.hpp"
 
@@ -56,7 +57,8 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
 }
 
 /// Does the runs that are not there yet, up to `count` side by side. The first error stops all.
-void run_all(const std::vector<Job>& jobs, int count, const std::string& command_line, const Report& progress) {
+void run_all(const std::vector<Job>& jobs, int count, const std::string& command_line,
+             const Report& progress) {
   side_by_side(jobs.size(), count, progress, [&](std::size_t k, const Report& report) {
     if (run::is_finished_run_of(jobs[k].directory, jobs[k].scene)) return;
     run::RunOptions options;
@@ -90,6 +92,16 @@ FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
 
 }  // namespace
 
+/// "5 runs steady, 3 unsettled": what became of the flows that a curve is averaged over.
+static std::string verdicts_of(const std::vector<fs::path>& runs) {
+  std::map<std::string, int> count;
+  for (const auto& run : runs) ++count[std::string(measure::name(run::read_flow(run).verdict))];
+  std::vector<std::string> texts;
+  for (const auto& [verdict, runs_so] : count)
+    texts.push_back(fmt::format("{} run{} {}", runs_so, runs_so > 1 ? "s" : "", verdict));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
 FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work,
                      const FigureContext& context, const std::string& command_line,
                      const std::function<bool(double)>& progress) {
@@ -110,6 +122,8 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
   for (std::size_t c = 0; c < recipe.curves.size(); ++c) {
     std::vector<fs::path> runs;
     for (const auto k : plan.of_curve[c]) runs.push_back(plan.jobs[k].directory);
+    if (recipe.curves[c].extract == Extract::profile && (c == 0 || plan.of_curve[c] != plan.of_curve[c - 1]))
+      table.comments.push_back(recipe.curves[c].series + ": " + verdicts_of(runs));
     const auto rows = extract(recipe.curves[c], runs);
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }
@@ -118,7 +132,10 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     if (context.quick) set.insert(set.end(), recipe.quick.begin(), recipe.quick.end());
     const auto made = sweep_curves(recipe.sweeps,
                                    {{recipe_file.parent_path() / *recipe.scene, set},
-                                    seeds, context.quick, context.jobs, work / "points"},
+                                    seeds,
+                                    context.quick,
+                                    context.jobs,
+                                    work / "points"},
                                    progress);
     table.comments.insert(table.comments.end(), made.comments.begin(), made.comments.end());
     table.rows.insert(table.rows.end(), made.rows.begin(), made.rows.end());
