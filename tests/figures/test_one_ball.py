@@ -1,6 +1,5 @@
 """What the thesis says that a reader must see in the figures of one ball on a line (4.2), on the CSV of the quick
 figures: test_one_ball.py CHUTE."""
-import csv
 import math
 import os
 import random
@@ -9,6 +8,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+from figure_csv import read_curves
 
 chute = sys.argv[1]
 FIGURES = ["fig-4-08", "fig-4-09", "fig-4-10", "fig-4-11", "fig-4-12", "fig-4-13", "fig-4-22"]
@@ -24,13 +25,7 @@ def tearDownModule():
 
 
 def curves(figure):
-    """(panel, series) -> [(x, y, y_err)], in the order of the file."""
-    found = {}
-    with open(os.path.join(folder.name, figure + ".csv"), encoding="utf-8") as file:
-        for row in csv.DictReader(line for line in file if not line.startswith("#")):
-            error = float(row["y_err"]) if row["y_err"] else None
-            found.setdefault((row["panel"], row["series"]), []).append((float(row["x"]), float(row["y"]), error))
-    return found
+    return read_curves(os.path.join(folder.name, figure + ".csv"))
 
 
 def gamma_max(size_ratio, gap=0):
