@@ -62,11 +62,11 @@ class Team {
   }
 
  private:
-  std::vector<std::jthread> threads_;
   void (*job_)(const void*, std::size_t) = nullptr;  // nullptr: go home
   const void* work_ = nullptr;
   alignas(64) std::atomic<std::size_t> round_ = 0;
   alignas(64) std::atomic<std::size_t> busy_ = 0;
+  std::vector<std::jthread> threads_;  // last: they go before what they use
 
   void publish() {
     round_.fetch_add(1, std::memory_order_release);
@@ -81,11 +81,11 @@ class Team {
       if (busy_.fetch_sub(1, std::memory_order_release) == 1) busy_.notify_all();
     }
   }
-  /// Spins for some microseconds, for the other side is mostly about to come; then gives the processor to
-  /// others, for it may be one of them that is waited for; then sleeps.
+  /// Spins, for the other side is mostly about to come, and gives way now and then, for it may be waiting for
+  /// this processor; sleeps after about a millisecond, for waking up takes longer than most waits.
   template <class Done>
   static void await(const Done& done, std::atomic<std::size_t>& flag) {
-    constexpr int spins = 200, yields = 20;
+    constexpr int yields = 200, spins = 200;
     for (int y = 0; y < yields; ++y) {
       for (int k = 0; k < spins; ++k) {
         if (done()) return;

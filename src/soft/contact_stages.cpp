@@ -249,12 +249,21 @@ void ContactStages<D>::find_touching(const search::PairList& pairs, const Grains
   });
   contacts.count = std::accumulate(found_.begin(), found_.end(), std::size_t{0});
   contacts.reserve(contacts.count);
-  std::size_t c = 0;
-  for (std::size_t member = 0; member < found_.size(); ++member) {
-    const auto begin = team.part(n, member).begin;
-    for (std::size_t k = 0; k < found_[member]; ++k, ++c) {
-      contacts.i[c] = pairs.i[static_cast<std::size_t>(touching_[begin + k])];
-      contacts.j[c] = pairs.j[static_cast<std::size_t>(touching_[begin + k])];
+}
+
+/// Names the grains of the contacts in a range: what each of the team found follows on what the one before
+/// found.
+template <int D>
+void ContactStages<D>::name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts,
+                                   const Team& team) const {
+  std::size_t first = 0;
+  for (std::size_t member = 0; member < found_.size(); first += found_[member++]) {
+    const auto* touching = touching_.data() + team.part(pairs.size(), member).begin;
+    const auto end = std::min(range.end, first + found_[member]);
+    for (std::size_t c = std::max(range.begin, first); c < end; ++c) {
+      const auto p = static_cast<std::size_t>(touching[c - first]);
+      contacts.i[c] = pairs.i[p];
+      contacts.j[c] = pairs.j[p];
     }
   }
 }
@@ -279,18 +288,22 @@ template <int D>
 void ContactStages<D>::evaluate(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
                                 double duration, Team& team) {
   find_touching(pairs, grains, contacts, team);
+  const auto begin = [&](Part range) {
+    name_grains(pairs, range, contacts, team);
+    geometry(grains, range, contacts);
+  };
   const auto laws = [&](Part range) {
     normal_forces(range, contacts, duration);
     shear_forces(range, contacts, duration);
   };
   if (!memory_.needed()) {
     team.split(contacts.count, [&](Part range, std::size_t) {
-      geometry(grains, range, contacts);
+      begin(range);
       laws(range);
     });
     return;
   }
-  team.split(contacts.count, [&](Part range, std::size_t) { geometry(grains, range, contacts); });
+  team.split(contacts.count, [&](Part range, std::size_t) { begin(range); });
   memory_.carry(grains, contacts, duration);
   std::fill_n(contacts.stored.begin(), contacts.count, 0.0);
   team.split(contacts.count, [&](Part range, std::size_t) { laws(range); });

@@ -51,6 +51,7 @@ class ContactStages {
 
   void find_touching(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
                      Team& team);
+  void name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts, const Team& team) const;
   void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
   void normal_forces(Part range, Contacts<D>& contacts, double duration);
   void shear_forces(Part range, Contacts<D>& contacts, double duration);
