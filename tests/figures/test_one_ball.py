@@ -1,31 +1,25 @@
 """What the thesis says that a reader must see in the figures of one ball on a line (4.2), on the CSV of the quick
 figures: test_one_ball.py CHUTE."""
 import math
-import os
 import random
 import statistics
-import subprocess
 import sys
-import tempfile
 import unittest
 
-from figure_csv import read_curves
+from figure_csv import QuickFigures
 
 chute = sys.argv[1]
 FIGURES = ["fig-4-08", "fig-4-09", "fig-4-10", "fig-4-11", "fig-4-12", "fig-4-13", "fig-4-22"]
-folder = tempfile.TemporaryDirectory()
+made = None
 
 
 def setUpModule():
-    subprocess.run([chute, "figure", *FIGURES, "--quick", "--quiet", "--jobs", "2", "-o", folder.name], check=True)
-
-
-def tearDownModule():
-    folder.cleanup()
+    global made
+    made = QuickFigures(chute, *FIGURES)
 
 
 def curves(figure):
-    return read_curves(os.path.join(folder.name, figure + ".csv"))
+    return made.curves(figure)
 
 
 def gamma_max(size_ratio, gap=0):

@@ -1,29 +1,23 @@
 """What the thesis says that a reader must see in the figures of 4.2 that are made from sweeps, on the CSV of the quick
 figures: test_sweeps.py CHUTE. Where it does not come out, the test holds what does, and says so."""
 import math
-import os
-import subprocess
 import sys
-import tempfile
 import unittest
 
-from figure_csv import interpolate, read_curves
+from figure_csv import QuickFigures, interpolate
 
 chute = sys.argv[1]
 FIGURES = ["fig-4-05", "fig-4-06", "fig-4-07", "fig-4-14", "fig-4-15", "fig-4-16", "fig-4-17", "fig-4-18", "fig-4-20"]
-folder = tempfile.TemporaryDirectory()
+made = None
 
 
 def setUpModule():
-    subprocess.run([chute, "figure", *FIGURES, "--quick", "--quiet", "--jobs", "2", "-o", folder.name], check=True)
-
-
-def tearDownModule():
-    folder.cleanup()
+    global made
+    made = QuickFigures(chute, *FIGURES)
 
 
 def curves(figure):
-    return read_curves(os.path.join(folder.name, figure + ".csv"))
+    return made.curves(figure)
 
 
 def against(curve, reference):
