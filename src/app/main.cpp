@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
 #include "app/verbs.hpp"
 #include "common/error.hpp"
+#include "common/toml_reader.hpp"
 #include "run/version.hpp"
 
 namespace chute::app {
@@ -23,6 +26,16 @@ enum Status { done = 0, failed = 1, wrong = 2 };
 int say(Status status, const char* what) {
   fmt::print(stderr, "chute: {}\n", what);
   return status;
+}
+
+/// CLI11 would only say that a verb is required.
+void check_verb(CLI::App& app, const std::string& word) {
+  std::vector<std::string> verbs;
+  for (const auto* verb : app.get_subcommands([](CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+  if (word.starts_with('-') || std::ranges::count(verbs, word) > 0) return;
+  const auto hint = chute::nearest(word, verbs);
+  throw chute::InputError(fmt::format("{}: no such verb{}; chute --help lists them", word,
+                                      hint.empty() ? "" : ", did you mean " + hint + "?"));
 }
 
 }  // namespace
@@ -44,7 +57,10 @@ int main(int argc, char** argv) {
   app::add_compare(app);
   app::add_theory(app);
 
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, as a full disk is
+
   try {
+    if (argc > 1) check_verb(app, argv[1]);
     app.parse(argc, argv);
     return done;
   } catch (const CLI::Success& asked) {  // --help, --version

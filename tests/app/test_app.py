@@ -141,6 +141,7 @@ class BadCommands(App):
                           ["run", self.scene, "-o", self.path("out"), "--resume", "--force"]):
             with self.subTest(arguments=arguments):
                 self.refused(*arguments)
+        self.assertIn("sweeep: no such verb, did you mean sweep?", self.refused("sweeep", self.scene))
 
     def test_info_of_what_is_no_run(self):
         self.assertIn("none", self.refused("info", self.path("none")))
@@ -183,7 +184,6 @@ class Disk(App):
     def test_a_full_disk(self):
         """No file may grow beyond 6 kB: the run starts and fails at some file, none of them half-written."""
         def small_disk():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # as a write to a full disk: an error, not a signal
             resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))
 
         scene = self.changed("count = 8", "count = 100")
