@@ -123,7 +123,7 @@ std::vector<FigureRow> peak(const Curve& curve, std::span<const fs::path> runs) 
 /// The rows of a table that tell something: a layer that is nearly always empty has an area fraction, but no
 /// mean velocity worth drawing.
 std::vector<bool> telling(const read::Table& table, const std::string& column) {
-  constexpr double fewest = 0.05;  // grains in the layer, on average
+  constexpr double fewest = 0.2;  // grains in the layer, on average
   std::vector<bool> rows(table.rows.size(), true);
   if (!table.has("grains") || column.starts_with("eta")) return rows;
   const auto grains = table.column("grains");
