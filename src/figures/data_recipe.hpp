@@ -35,7 +35,7 @@ struct Curve {
   std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
   double fold = 0;                           ///< histogram, scatter: take angles modulo this; 0: as they are
   bool absolute = false;                     ///< histogram, scatter: the column's absolute value
-  std::int64_t most = 20000;                 ///< return_map, scatter: no more dots than this (the last ones)
+  std::int64_t most = 20000;                 ///< return_map, scatter: no more dots than this, evenly taken
   bool fine = false;                         ///< profile: the fine bins
   std::int64_t peak = 1;                     ///< peak: which, counted from 0, the one at the least values
   double bandwidth = 4e-3;  ///< peak: of the density's kernel, in the column's unit (figures/peaks.hpp)

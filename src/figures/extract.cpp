@@ -76,10 +76,12 @@ std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> r
   return rows;
 }
 
-/// Keeps the last `most` rows: a picture of dots needs no more, and the end of a run is its steadiest part.
-void keep_last(std::vector<FigureRow>& rows, std::int64_t most) {
-  const auto excess = static_cast<std::ptrdiff_t>(rows.size()) - most;
-  if (excess > 0) rows.erase(rows.begin(), rows.begin() + excess);
+/// Keeps `most` rows, evenly taken from all of the time: a picture of dots needs no more.
+void thin(std::vector<FigureRow>& rows, std::int64_t most) {
+  const auto wanted = static_cast<std::size_t>(most), all = rows.size();
+  if (all <= wanted) return;
+  for (std::size_t k = 0; k < wanted; ++k) rows[k] = rows[k * all / wanted];
+  rows.resize(wanted);
 }
 
 std::vector<FigureRow> return_map(const Curve& curve, std::span<const fs::path> runs) {
@@ -94,7 +96,7 @@ std::vector<FigureRow> return_map(const Curve& curve, std::span<const fs::path> 
       last[grain[i]] = value[i];
     }
   }
-  keep_last(rows, curve.most);
+  thin(rows, curve.most);
   return rows;
 }
 
@@ -108,7 +110,7 @@ std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> run
         rows.push_back(
             {curve.panel, curve.series, folded(x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
   }
-  keep_last(rows, curve.most);
+  thin(rows, curve.most);
   return rows;
 }
 
