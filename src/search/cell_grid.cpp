@@ -111,9 +111,7 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
       }
     }
     std::sort(row.begin(), row.end());
-    for (const auto j : row)
-      found.add(static_cast<std::int32_t>(i), j,
-                grains.radius[i] + grains.radius[static_cast<std::size_t>(j)]);
+    for (const auto j : row) found.add(grains, i, static_cast<std::size_t>(j));
   };
   row_.resize(team.size());
   parts_.resize(team.size() - 1);
@@ -131,9 +129,7 @@ void all_pairs(const Grains<D>& grains, const Domain<D>& domain, double skin, Pa
   pairs.clear();
   for (std::size_t i = 0; i < grains.moving; ++i)
     for (std::size_t j = i + 1; j < grains.size(); ++j)
-      if (within(grains, domain, i, j, skin))
-        pairs.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j),
-                  grains.radius[i] + grains.radius[j]);
+      if (within(grains, domain, i, j, skin)) pairs.add(grains, i, j);
 }
 
 template class CellGrid<2>;

@@ -37,6 +37,46 @@ struct MovedKernel {
   }
 };
 
+/// MovedKernel, and the coarse places of the same grains.
+template <int D>
+struct SurveyKernel {
+  static constexpr int words = CoarsePlaces<D>::words;
+  std::array<const double*, D> now, before;
+  Vec<D> length, half;
+  double limit_squared;
+  Vec<D> lower, per_length;
+  Part range;
+  std::array<std::uint64_t*, words> word;
+  std::int64_t *any, *astray;
+
+  void operator()() const {
+    const auto r = now, r0 = before;
+    const auto full = length, fold = half, low = lower, scale = per_length;
+    const double limit = limit_squared;
+    const auto [begin, end] = range;
+    const auto out = word;
+    std::int64_t found = 0, far = 0;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t i = begin; i < end; ++i) {
+      double d2 = 0;
+      std::array<std::uint64_t, D> fraction;
+      for (int k = 0; k < D; ++k) {
+        const double x = r[k][i];
+        const double d = Domain<D>::nearest_image(x - r0[k][i], full[k], fold[k]);
+        d2 += d * d;
+        const double quanta = (x - low[k]) * scale[k];
+        fraction[k] = CoarsePlaces<D>::fraction(quanta);
+        far |= !(std::abs(quanta) < CoarsePlaces<D>::most_quanta);
+      }
+      found |= !(d2 <= limit);
+      for (int w = 0; w < words; ++w)
+        out[w][i] = 2 * w + 1 < D ? fraction[2 * w] | fraction[2 * w + 1] << 32 : fraction[2 * w];
+    }
+    *any = found;
+    *astray = far;
+  }
+};
+
 }  // namespace
 
 template <int D>
@@ -55,6 +95,20 @@ bool NeighbourList<D>::moved(const Grains<D>& grains, const std::array<Array, D>
     if (any) moved.store(1, std::memory_order_relaxed);
   });
   return moved != 0;
+}
+
+/// The same for the near list, on the way to the coarse places of the grains in `range`.
+template <int D>
+bool NeighbourList<D>::survey(const Grains<D>& grains, Part range) {
+  std::int64_t any = 0, astray = 0;
+  SurveyKernel<D> kernel{{}, {}, domain_.length, 0.5 * domain_.length, skins_.near * skins_.near / 4,
+                         coarse_.lower, coarse_.per_length, range, {}, &any, &astray};
+  for (int k = 0; k < D; ++k)
+    kernel.now[k] = grains.position[k].data(), kernel.before[k] = near_places_[k].data();
+  for (int w = 0; w < CoarsePlaces<D>::words; ++w) kernel.word[w] = coarse_.word[w].data();
+  run_kernel(isa_, kernel);
+  if (astray) astray_.store(true, std::memory_order_relaxed);
+  return any;
 }
 
 template <int D>
@@ -87,7 +141,7 @@ void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
       const auto way = domain_.way(grains.place(i), grains.place(j));
       const double reach = grains.radius[i] + grains.radius[j];
       if (dot(way, way) < (reach + skins_.near) * (reach + skins_.near))
-        pairs.add(far_.i[p], far_.j[p], reach);
+        pairs.add(grains, i, j);
     }
   };
   parts_.resize(team.size() - 1);
@@ -98,15 +152,29 @@ void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
 }
 
 template <int D>
-const PairList& NeighbourList<D>::near(const Grains<D>& grains, Team& team) {
+void NeighbourList<D>::set_up_coarse(const Grains<D>& grains) {
+  const auto largest = std::max_element(grains.radius.begin(), grains.radius.end());
+  coarse_.set_up(domain_, largest == grains.radius.end() ? 1 : 2 * (*largest + skins_.near));
+  for (auto& word : coarse_.word) word.resize(grains.size());
+  for (int k = 0; k < D; ++k) near_places_[k] = grains.position[k];  // of the bed, too, for this once
+  survey(grains, {0, grains.size()});
+}
+
+template <int D>
+Candidates<D> NeighbourList<D>::near(const Grains<D>& grains, Team& team) {
   const bool first = near_builds_ == 0;
-  if (first || moved(grains, near_places_, skins_.near / 2, team)) {
+  if (first) set_up_coarse(grains);
+  std::atomic<bool> moved_far = false;
+  team.split(grains.moving, [&](Part range, std::size_t) {
+    if (survey(grains, range)) moved_far.store(true, std::memory_order_relaxed);
+  });
+  if (first || moved_far) {
     // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the
     // way moved.
     if (first || moved(grains, far_places_, (skins_.far - skins_.near) / 2, team)) build_far(grains, team);
     build_near(grains, team);
   }
-  return near_;
+  return {near_, astray_ ? nullptr : &coarse_};
 }
 
 template class NeighbourList<2>;

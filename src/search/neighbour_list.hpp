@@ -1,12 +1,21 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 
 #include "core/kernel.hpp"
+#include "search/coarse_places.hpp"
 #include "search/pairs.hpp"
 
 namespace chute::search {
 
 enum class Method { cells, all_pairs };
+
+/// Pairs that may touch, and coarsely where their grains are now; without that every pair takes a full look.
+template <int D>
+struct Candidates {
+  const PairList& pairs;
+  const CoarsePlaces<D>* coarse = nullptr;
+};
 
 /// Verlet lists on two levels. The far list holds all pairs with a gap below the far skin and is found
 /// through the cell grid; the near list is the part of it with a gap below the near skin, and is what every
@@ -23,7 +32,7 @@ class NeighbourList {
   NeighbourList(const Domain<D>& domain, Skins skins, Method method = Method::cells, Isa isa = best_isa());
 
   /// Pairs that may touch now. NotANumber if a place is not a number.
-  const PairList& near(const Grains<D>& grains, Team& team = Team::alone());
+  Candidates<D> near(const Grains<D>& grains, Team& team = Team::alone());
 
   std::int64_t near_builds() const { return near_builds_; }
   std::int64_t far_builds() const { return far_builds_; }
@@ -37,9 +46,13 @@ class NeighbourList {
   PairList far_, near_;
   std::vector<PairList> parts_;                    // of the near list, while it is made
   std::array<Array, D> near_places_, far_places_;  // of the moving grains, when each list was made
+  CoarsePlaces<D> coarse_;
+  std::atomic<bool> astray_ = false;  // has a grain ever been too far away for coarse places?
   std::int64_t near_builds_ = 0, far_builds_ = 0;
 
   bool moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit, Team& team) const;
+  bool survey(const Grains<D>& grains, Part range);
+  void set_up_coarse(const Grains<D>& grains);
   void remember(const Grains<D>& grains, std::array<Array, D>& places) const;
   void build_far(const Grains<D>& grains, Team& team);
   void build_near(const Grains<D>& grains, Team& team);

@@ -15,27 +15,34 @@ namespace chute::search {
 struct PairList {
   std::vector<std::int32_t> i, j;
   Array reach_squared;  ///< (R_i + R_j)²: the pair touches when its distance squared is less
+  Array m_eff;          ///< reduced mass; fixed grains count as infinitely heavy
 
   std::size_t size() const { return i.size(); }
   void clear() {
     i.clear();
     j.clear();
     reach_squared.clear();
+    m_eff.clear();
   }
   void reserve(std::size_t count) {
     i.reserve(count);
     j.reserve(count);
     reach_squared.reserve(count);
+    m_eff.reserve(count);
   }
   void append(const PairList& other) {
     i.insert(i.end(), other.i.begin(), other.i.end());
     j.insert(j.end(), other.j.begin(), other.j.end());
     reach_squared.insert(reach_squared.end(), other.reach_squared.begin(), other.reach_squared.end());
+    m_eff.insert(m_eff.end(), other.m_eff.begin(), other.m_eff.end());
   }
-  void add(std::int32_t first, std::int32_t second, double reach) {
-    i.push_back(first);
-    j.push_back(second);
+  template <int D>
+  void add(const Grains<D>& grains, std::size_t first, std::size_t second) {
+    i.push_back(static_cast<std::int32_t>(first));
+    j.push_back(static_cast<std::int32_t>(second));
+    const double reach = grains.radius[first] + grains.radius[second];
     reach_squared.push_back(reach * reach);
+    m_eff.push_back(1 / (grains.inverse_mass[first] + grains.inverse_mass[second]));
   }
 };
 

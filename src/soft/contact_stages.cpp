@@ -1,9 +1,12 @@
 #include "soft/contact_stages.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
 #include <limits>
 #include <numeric>
+
+#include "core/compress.hpp"
+#include "soft/contact_kernels.hpp"
 
 namespace chute::soft {
 namespace {
@@ -21,200 +24,95 @@ std::array<double*, K> pointers(std::array<Array, K>& arrays) {
   return p;
 }
 
-/// Which pairs touch? Most do not; this is the loop that a run spends most of its time in.
+/// The last range goes on to the end of a vector: see `padded`.
+Part whole_vectors(Part range, std::size_t count) {
+  return {range.begin, range.end == count ? padded(count) : range.end};
+}
+
 template <int D>
-struct TouchKernel {
-  std::array<const double*, D> place;
-  const std::int32_t *first, *second;
-  const double* reach_squared;
-  Vec<D> length, half;
-  Part range;
-  std::int64_t* hit;
-
-  void operator()() const {
-    const auto r = place;
-    const auto *i = first, *j = second;
-    const auto* reach2 = reach_squared;
-    const auto full = length, fold = half;
-    const auto [begin, end] = range;
-    auto* out = hit;
-    CHUTE_VECTOR_LOOP
-    for (std::size_t p = begin; p < end; ++p) {
-      double d2 = 0;
-      for (int k = 0; k < D; ++k) {
-        const double d = Domain<D>::nearest_image(r[k][j[p]] - r[k][i[p]], full[k], fold[k]);
-        d2 += d * d;
-      }
-      out[p] = d2 < reach2[p];
-    }
+void name(const search::PairList& pairs, const std::int32_t* touching, Part which, Contacts<D>& contacts) {
+  for (std::size_t c = which.begin; c < which.end; ++c) {
+    const auto p = static_cast<std::size_t>(touching[c - which.begin]);
+    contacts.i[c] = pairs.i[p];
+    contacts.j[c] = pairs.j[p];
+    contacts.m_eff[c] = pairs.m_eff[p];
   }
-};
-
-/// Frame and relative motion of each contact: (2.3), (2.4), (2.6), (2.7).
+}
+/// Fills the last vector up with the last contact.
 template <int D>
-struct GeometryKernel {
-  static constexpr int T = turns<D>;
-  std::array<const double*, D> place, velocity;
-  std::array<const double*, T> spin;
-  const double *radius, *inverse_mass;
-  const std::int32_t *first, *second;
-  Vec<D> length, half;
-  Part range;
-  std::array<double*, D> normal;
-  double *overlap, *closing, *m_eff;
-  std::array<double*, T> slip;
-
-  void operator()() const {
-    const auto r = place, v = velocity;
-    const auto w = spin;
-    const auto *R = radius, *inv_m = inverse_mass;
-    const auto *fi = first, *se = second;
-    const auto full = length, fold = half;
-    const auto [begin, end] = range;
-    const auto n_out = normal;
-    auto *xi_out = overlap, *closing_out = closing, *m_out = m_eff;
-    const auto slip_out = slip;
-    CHUTE_VECTOR_LOOP
-    for (std::size_t c = begin; c < end; ++c) {
-      const auto i = fi[c], j = se[c];
-      Vec<D> n, dv;
-      for (int k = 0; k < D; ++k) {
-        n[k] = Domain<D>::nearest_image(r[k][j] - r[k][i], full[k], fold[k]);
-        dv[k] = v[k][j] - v[k][i];
-      }
-      const double distance = std::sqrt(dot(n, n));
-      const double inverse = 1 / distance;
-      for (int k = 0; k < D; ++k) n[k] *= inverse;
-      const double v_n = dot(dv, n);
-      if constexpr (D == 2) {
-        // (1.14) with s = (n_y, −n_x)
-        slip_out[0][c] = dv[0] * n[1] - dv[1] * n[0] + R[i] * w[0][i] + R[j] * w[0][j];
-      } else {
-        // (2.7), with the sum of the spins (the printed difference contradicts (1.14))
-        Vec<3> spin_sum;
-        for (int k = 0; k < 3; ++k) spin_sum[k] = R[i] * w[k][i] + R[j] * w[k][j];
-        const auto turn = cross(n, spin_sum);
-        for (int k = 0; k < 3; ++k) slip_out[k][c] = dv[k] - v_n * n[k] + turn[k];
-      }
-      for (int k = 0; k < D; ++k) n_out[k][c] = n[k];
-      xi_out[c] = R[i] + R[j] - distance;
-      closing_out[c] = -v_n;
-      m_out[c] = 1 / (inv_m[i] + inv_m[j]);
-    }
-  }
-};
-
-template <class Law>
-struct NormalKernel {
-  Law law;
-  double least;  // the force is clipped there: 0 without attraction, else −∞
-  const double *overlap, *closing, *m_eff, *r_eff;
-  Part range;
-  double *force, *loss;
-
-  void operator()() const {
-    const Law f = law;
-    const double floor = least;
-    const auto *xi = overlap, *dxi = closing, *m = m_eff, *R = r_eff;
-    const auto [begin, end] = range;
-    auto *force_out = force, *loss_out = loss;
-    CHUTE_VECTOR_LOOP
-    for (std::size_t c = begin; c < end; ++c) {
-      const auto result = f(xi[c], dxi[c], laws::Pair(m[c], R[c]));
-      const double clipped = result.total < floor ? floor : result.total;
-      force_out[c] = clipped;
-      loss_out[c] = result.loss_rate + (clipped - result.total) * dxi[c];  // what the spring gives is lost
-    }
-  }
-};
-
-/// The same for a law with a memory. Such laws branch and call functions; there is nothing to vectorise.
-template <class Law>
-void remembering_normal(const Law& law, std::array<double*, static_cast<std::size_t>(Law::memory)> columns,
-                        double inverse_duration, const double* overlap, const double* closing,
-                        const double* m_eff, const double* r_eff, Part range, double* force, double* loss,
-                        double* stored) {
-  for (std::size_t c = range.begin; c < range.end; ++c) {
-    std::array<double, static_cast<std::size_t>(Law::memory)> memory;
-    for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = columns[k][c];
-    const auto result = law(overlap[c], closing[c], laws::Pair(m_eff[c], r_eff[c]), memory);
-    for (std::size_t k = 0; k < memory.size(); ++k) columns[k][c] = memory[k];
-    force[c] = result.total;
-    loss[c] = result.loss * inverse_duration;
-    stored[c] = law.energy(overlap[c], laws::Pair(m_eff[c], r_eff[c]), memory);
+void pad(Contacts<D>& contacts) {
+  for (std::size_t c = contacts.count; c < padded(contacts.count); ++c) {
+    contacts.i[c] = contacts.i[c - 1];
+    contacts.j[c] = contacts.j[c - 1];
+    contacts.m_eff[c] = contacts.m_eff[c - 1];
   }
 }
 
-template <class Law, int T>
-struct ShearKernel {
-  Law law;
-  std::array<const double*, T> slip;
-  const double *normal_force, *m_eff;
-  Part range;
-  std::array<double*, T> force;
-  double* loss;
+/// Adds what contacts do to the sums of their grains.
+template <int D>
+struct Adder {
+  const std::int32_t *first, *second;
+  std::array<const double*, D> normal;
+  std::array<const double*, turns<D>> shear_force;
+  const double *normal_force, *normal_power, *shear_power, *radius;
+  double duration;
+  std::array<double*, D> force;
+  std::array<double*, turns<D>> torque;
+  double *normal_loss, *shear_loss;
 
-  void operator()() const {
-    const Law f = law;
-    const auto v_s = slip;
-    const auto *f_n = normal_force, *m = m_eff;
-    const auto [begin, end] = range;
-    const auto force_out = force;
-    auto* loss_out = loss;
-    CHUTE_VECTOR_LOOP
-    for (std::size_t c = begin; c < end; ++c) {
-      Vec<T> v;
-      for (int k = 0; k < T; ++k) v[k] = v_s[k][c];
-      const Vec<T> result = f(v, f_n[c], m[c]);
-      for (int k = 0; k < T; ++k) force_out[k][c] = result[k];
-      loss_out[c] = -dot(result, v);
+  Adder(const Contacts<D>& c, const Grains<D>& grains, double over, GrainSums<D>& sums)
+      : first(c.i.data()),
+        second(c.j.data()),
+        normal(pointers(c.normal)),
+        shear_force(pointers(c.shear_force)),
+        normal_force(c.normal_force.data()),
+        normal_power(c.normal_loss.data()),
+        shear_power(c.shear_loss.data()),
+        radius(grains.radius.data()),
+        duration(over),
+        force(pointers(sums.force)),
+        torque(pointers(sums.torque)),
+        normal_loss(sums.normal_loss.data()),
+        shear_loss(sums.shear_loss.data()) {}
+
+  void loss(std::size_t c) const {
+    const auto i = static_cast<std::size_t>(first[c]);
+    normal_loss[i] += duration * normal_power[c];
+    shear_loss[i] += duration * shear_power[c];
+  }
+  void forces(std::size_t c, bool to_i, bool to_j) const {
+    const auto i = static_cast<std::size_t>(first[c]), j = static_cast<std::size_t>(second[c]);
+    Vec<D> f, n;
+    for (int k = 0; k < D; ++k) n[k] = normal[k][c];
+    f = normal_force[c] * n;
+    Vec<turns<D>> turn;  // both grains: the lever arms and the forces are opposite
+    if constexpr (D == 2) {
+      const double f_s = shear_force[0][c];
+      f[0] += f_s * n[1];
+      f[1] -= f_s * n[0];
+      turn[0] = f_s;
+    } else {
+      Vec<3> f_s;
+      for (int k = 0; k < 3; ++k) f_s[k] = shear_force[k][c];
+      f = f + f_s;
+      turn = -1.0 * cross(n, f_s);
+    }
+    if (to_i) {
+      for (int k = 0; k < turns<D>; ++k) torque[k][i] += radius[i] * turn[k];
+      for (int k = 0; k < D; ++k) force[k][i] -= f[k];
+    }
+    if (to_j) {
+      for (int k = 0; k < turns<D>; ++k) torque[k][j] += radius[j] * turn[k];
+      for (int k = 0; k < D; ++k) force[k][j] += f[k];
     }
   }
 };
-
-/// What the surfaces of each contact do, for laws with a memory. What they take is the work done against them
-/// minus the change of what is stored: work by the mean of the forces at the ends of the step, which for a
-/// spring is exact. A force that is there at once when a contact begins or ends acts for half a step before
-/// or after, as it does in the integration.
-template <class Law, int D>
-void remembering_shear(const Law& law, ContactMemory<D>& memory, double duration, Part range,
-                       Contacts<D>& contacts) {
-  constexpr int T = turns<D>;
-  const double inverse_duration = duration > 0 ? 1 / duration : 0;
-  for (std::size_t c = range.begin; c < range.end; ++c) {
-    laws::Slip<T> slip{
-        {}, contacts.normal_force[c], contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c])};
-    Vec<T> before, way;
-    for (int k = 0; k < T; ++k) {
-      slip.way[k] = memory.way()[k][c];
-      way[k] = memory.fresh(c) ? duration * contacts.slip[k][c] : slip.way[k];
-      before[k] = memory.previous_force(k)[c];
-    }
-    typename Law::template Memory<T> own;
-    for (int v = 0; v < Law::vectors; ++v)
-      for (int k = 0; k < T; ++k) own.vector[static_cast<std::size_t>(v)][k] = memory.vector_column(v, k)[c];
-    for (int s = 0; s < Law::scalars; ++s)
-      own.scalar[static_cast<std::size_t>(s)] = memory.scalar_column(s)[c];
-
-    const Vec<T> force = law(slip, own);
-    const double stored = law.energy(slip, own);
-    const double taken = -0.5 * dot(before + force, way) - (stored - memory.stored_column()[c]);
-
-    for (int v = 0; v < Law::vectors; ++v)
-      for (int k = 0; k < T; ++k) memory.vector_column(v, k)[c] = own.vector[static_cast<std::size_t>(v)][k];
-    for (int s = 0; s < Law::scalars; ++s)
-      memory.scalar_column(s)[c] = own.scalar[static_cast<std::size_t>(s)];
-    for (int k = 0; k < T; ++k) memory.previous_force(k)[c] = contacts.shear_force[k][c] = force[k];
-    memory.stored_column()[c] = stored;
-    contacts.stored[c] += stored;
-    contacts.shear_loss[c] = taken * inverse_duration;
-  }
-}
 
 }  // namespace
 
 template <int D>
 void Contacts<D>::reserve(std::size_t most) {
+  most = padded(most);
   if (i.size() >= most) return;
   i.resize(most);
   j.resize(most);
@@ -229,26 +127,36 @@ template <int D>
 ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa, SlipRule rule)
     : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
 
+/// Writes the pairs of `range` that touch to `pair`, and tells how many they are; `hit` is for its own use.
 template <int D>
-void ContactStages<D>::find_touching(const search::PairList& pairs, const Grains<D>& grains,
-                                     Contacts<D>& contacts, Team& team) {
-  const std::size_t n = pairs.size();
-  if (hit_.size() < n) hit_.resize(n), touching_.resize(n);
-  found_.resize(team.size());
-  team.split(n, [&](Part range, std::size_t member) {
-    run_kernel(isa_, TouchKernel<D>{pointers(grains.position), pairs.i.data(), pairs.j.data(),
-                                    pairs.reach_squared.data(), domain_.length, 0.5 * domain_.length, range,
-                                    hit_.data()});
-    std::size_t end = range.begin;
-    for (std::size_t p = range.begin; p < range.end;
-         ++p) {  // without a branch: which touch is not predictable
-      touching_[end] = static_cast<std::int32_t>(p);
-      end += static_cast<std::size_t>(hit_[p]);
-    }
-    found_[member] = end - range.begin;
-  });
-  contacts.count = std::accumulate(found_.begin(), found_.end(), std::size_t{0});
-  contacts.reserve(contacts.count);
+std::size_t ContactStages<D>::find(const search::Candidates<D>& candidates, const Grains<D>& grains,
+                                   Part range, std::int64_t* hit, std::int32_t* pair) const {
+  const auto& pairs = candidates.pairs;
+  const auto *i = pairs.i.data() + range.begin, *j = pairs.j.data() + range.begin;
+  const double* reach_squared = pairs.reach_squared.data() + range.begin;
+  const auto base = static_cast<std::int32_t>(range.begin);
+  const std::size_t count = range.size();
+  if (!candidates.coarse) {
+    run_kernel(isa_, TouchKernel<D>{pointers(grains.position), i, j, reach_squared, domain_.length,
+                                    0.5 * domain_.length, count, hit});
+    return compress(isa_, hit, count, base, pair);
+  }
+  const auto& coarse = *candidates.coarse;
+  std::int64_t doubt = 0;
+  CoarseTouchKernel<D> kernel{{},     coarse.quantum, i,   j, reach_squared, 1e-12, coarse.margin,
+                              count, hit,            &doubt};
+  for (int w = 0; w < coarse.words; ++w) kernel.word[w] = coarse.word[w].data();
+  run_kernel(isa_, kernel);
+  const std::size_t found = compress(isa_, hit, count, base, pair);
+  if (!doubt) return found;
+  const auto apart = [&](std::int32_t p) {
+    const auto local = static_cast<std::size_t>(p - base);
+    if (hit[local] == 1) return false;
+    const auto way = domain_.way(grains.place(static_cast<std::size_t>(i[local])),
+                                 grains.place(static_cast<std::size_t>(j[local])));
+    return !(dot(way, way) < reach_squared[local]);
+  };
+  return static_cast<std::size_t>(std::remove_if(pair, pair + found, apart) - pair);
 }
 
 /// Names the grains of the contacts in a range: what each of the team found follows on what the one before
@@ -258,24 +166,23 @@ void ContactStages<D>::name_grains(const search::PairList& pairs, Part range, Co
                                    const Team& team) const {
   std::size_t first = 0;
   for (std::size_t member = 0; member < found_.size(); first += found_[member++]) {
-    const auto* touching = touching_.data() + team.part(pairs.size(), member).begin;
-    const auto end = std::min(range.end, first + found_[member]);
-    for (std::size_t c = std::max(range.begin, first); c < end; ++c) {
-      const auto p = static_cast<std::size_t>(touching[c - first]);
-      contacts.i[c] = pairs.i[p];
-      contacts.j[c] = pairs.j[p];
-    }
+    const auto* touching = touching_.pair.data() + team.part(pairs.size(), member).begin;
+    const auto begin = std::max(range.begin, first), end = std::min(range.end, first + found_[member]);
+    if (begin < end) name(pairs, touching + (begin - first), {begin, end}, contacts);
   }
+  if (range.end == contacts.count) pad(contacts);
 }
 
 template <int D>
 void ContactStages<D>::geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const {
+  range = whole_vectors(range, contacts.count);
+  std::int64_t deep = 0;
   run_kernel(isa_,
              GeometryKernel<D>{pointers(grains.position), pointers(grains.velocity), pointers(grains.spin),
-                               grains.radius.data(), grains.inverse_mass.data(), contacts.i.data(),
-                               contacts.j.data(), domain_.length, 0.5 * domain_.length, range,
-                               pointers(contacts.normal), contacts.overlap.data(), contacts.closing.data(),
-                               contacts.m_eff.data(), pointers(contacts.slip)});
+                               grains.radius.data(), contacts.i.data(), contacts.j.data(), domain_.length,
+                               0.5 * domain_.length, range, pointers(contacts.normal), contacts.overlap.data(),
+                               contacts.closing.data(), pointers(contacts.slip), deepest_, &deep});
+  if (deep) std::atomic_ref(contacts.deep).store(1, std::memory_order_relaxed);
   if (!needs_radius_) return;
   for (std::size_t c = range.begin; c < range.end; ++c) {
     const double a = grains.radius[static_cast<std::size_t>(contacts.i[c])];
@@ -285,9 +192,38 @@ void ContactStages<D>::geometry(const Grains<D>& grains, Part range, Contacts<D>
 }
 
 template <int D>
-void ContactStages<D>::evaluate(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
-                                double duration, Team& team) {
-  find_touching(pairs, grains, contacts, team);
+void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, std::span<const Part> pairs,
+                                const Grains<D>& grains, Contacts<D>& contacts, Touching& touching) {
+  contacts.count = 0;
+  contacts.deep = 0;
+  for (const Part range : pairs) {
+    touching.reserve(range.size());
+    const Part found{contacts.count, contacts.count + find(candidates, grains, range, touching.hit.data(),
+                                                           touching.pair.data())};
+    contacts.reserve(found.end);
+    name(candidates.pairs, touching.pair.data(), found, contacts);
+    contacts.count = found.end;
+  }
+  pad(contacts);
+  const Part all{0, contacts.count};
+  geometry(grains, all, contacts);
+  normal_forces(all, contacts, 0);
+  shear_forces(all, contacts, 0);
+}
+
+template <int D>
+void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const Grains<D>& grains,
+                                Contacts<D>& contacts, double duration, Team& team) {
+  const auto& pairs = candidates.pairs;
+  touching_.reserve(pairs.size());
+  found_.resize(team.size());
+  team.split(pairs.size(), [&](Part range, std::size_t member) {
+    found_[member] = find(candidates, grains, range, touching_.hit.data() + range.begin,
+                          touching_.pair.data() + range.begin);
+  });
+  contacts.count = std::accumulate(found_.begin(), found_.end(), std::size_t{0});
+  contacts.deep = 0;
+  contacts.reserve(contacts.count);
   const auto begin = [&](Part range) {
     name_grains(pairs, range, contacts, team);
     geometry(grains, range, contacts);
@@ -325,7 +261,8 @@ void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double d
                              contacts.stored.data());
         } else {
           const double least = laws_.attraction ? -std::numeric_limits<double>::infinity() : 0.0;
-          run_kernel(isa_, NormalKernel<Law>{law, least, xi, dxi, m, R, range, force, loss});
+          run_kernel(isa_, NormalKernel<Law>{law, least, xi, dxi, m, R, whole_vectors(range, contacts.count),
+                                             force, loss});
         }
       },
       laws_.normal);
@@ -341,72 +278,47 @@ void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double du
         else
           run_kernel(isa_, ShearKernel<Law, turns<D>>{
                                law, pointers(slip), contacts.normal_force.data(), contacts.m_eff.data(),
-                               range, pointers(contacts.shear_force), contacts.shear_loss.data()});
+                               whole_vectors(range, contacts.count), pointers(contacts.shear_force),
+                               contacts.shear_loss.data()});
       },
       laws_.shear);
-}
-
-template <int D>
-void ContactStages<D>::apply(const Contacts<D>& contacts, const Grains<D>& grains,
-                             std::array<Array, D>& force, std::array<Array, turns<D>>& torque,
-                             Team& team) const {
-  team.run([&](std::size_t member) {
-    Part own = team.part(grains.moving, member);
-    if (member + 1 == team.size()) own.end = grains.size();  // with the bed
-    apply_to(own, contacts, grains, force, torque);
-  });
 }
 
 /// A grain's sums are in the order of its contacts, whoever computes them: those with grains before the
 /// range, which come first, and then those that begin in it.
 template <int D>
-void ContactStages<D>::apply_to(Part own, const Contacts<D>& contacts, const Grains<D>& grains,
-                                std::array<Array, D>& force, std::array<Array, turns<D>>& torque) const {
-  for (auto& f : force)
-    std::fill(f.begin() + static_cast<std::ptrdiff_t>(own.begin),
-              f.begin() + static_cast<std::ptrdiff_t>(own.end), 0.0);
-  for (auto& t : torque)
-    std::fill(t.begin() + static_cast<std::ptrdiff_t>(own.begin),
-              t.begin() + static_cast<std::ptrdiff_t>(own.end), 0.0);
-  const auto add = [&](std::size_t c, bool to_i, bool to_j) {
-    const auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
-    Vec<D> f, n;
-    for (int k = 0; k < D; ++k) n[k] = contacts.normal[k][c];
-    f = contacts.normal_force[c] * n;
-    Vec<turns<D>> turn;  // both grains: the lever arms and the forces are opposite
-    if constexpr (D == 2) {
-      const double f_s = contacts.shear_force[0][c];
-      f[0] += f_s * n[1];
-      f[1] -= f_s * n[0];
-      turn[0] = f_s;
-    } else {
-      Vec<3> f_s;
-      for (int k = 0; k < 3; ++k) f_s[k] = contacts.shear_force[k][c];
-      f = f + f_s;
-      turn = -1.0 * cross(n, f_s);
-    }
-    const double Ri = grains.radius[i], Rj = grains.radius[j];
-    if (to_i)
-      for (int k = 0; k < turns<D>; ++k) torque[k][i] += Ri * turn[k];
-    if (to_j)
-      for (int k = 0; k < turns<D>; ++k) torque[k][j] += Rj * turn[k];
-    if (to_i)
-      for (int k = 0; k < D; ++k) force[k][i] -= f[k];
-    if (to_j)
-      for (int k = 0; k < D; ++k) force[k][j] += f[k];
-  };
+void ContactStages<D>::apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
+                             GrainSums<D>& sums, Team& team) const {
+  const Adder<D> add(contacts, grains, duration, sums);
+  if (team.size() == 1) {
+    for (std::size_t c = 0; c < contacts.count; ++c) add.forces(c, true, true), add.loss(c);
+    return;
+  }
   const auto until = contacts.i.begin() + static_cast<std::ptrdiff_t>(contacts.count);
   const auto contact_of = [&](std::size_t grain) {
     return static_cast<std::size_t>(
         std::lower_bound(contacts.i.begin(), until, static_cast<std::int32_t>(grain)) - contacts.i.begin());
   };
-  const std::size_t first = contact_of(own.begin), last = contact_of(own.end);
-  const auto is_own = [&](std::int32_t j) {
-    return static_cast<std::size_t>(j) >= own.begin && static_cast<std::size_t>(j) < own.end;
-  };
-  for (std::size_t c = 0; c < first; ++c)
-    if (is_own(contacts.j[c])) add(c, false, true);
-  for (std::size_t c = first; c < last; ++c) add(c, true, is_own(contacts.j[c]));
+  team.run([&](std::size_t member) {
+    Part own = team.part(grains.moving, member);
+    if (member + 1 == team.size()) own.end = grains.size();  // with the bed
+    const auto is_own = [&](std::int32_t j) {
+      return static_cast<std::size_t>(j) >= own.begin && static_cast<std::size_t>(j) < own.end;
+    };
+    const std::size_t first = contact_of(own.begin), last = contact_of(own.end);
+    for (std::size_t c = 0; c < first; ++c)
+      if (is_own(contacts.j[c])) add.forces(c, false, true);
+    for (std::size_t c = first; c < last; ++c) add.forces(c, true, is_own(contacts.j[c])), add.loss(c);
+  });
+}
+
+template <int D>
+void ContactStages<D>::apply(const Contacts<D>& contacts, Part which, const Grains<D>& grains,
+                             double duration, std::size_t losses, GrainSums<D>& sums) const {
+  const Adder<D> add(contacts, grains, duration, sums);
+  for (std::size_t c = which.begin; c < which.end; ++c)
+    add.forces(c, true, static_cast<std::size_t>(contacts.j[c]) < grains.moving);
+  for (std::size_t c = losses; c < which.end; ++c) add.loss(c);
 }
 
 template <int D>

@@ -1,35 +1,58 @@
 #pragma once
 #include <cstdint>
+#include <limits>
+#include <span>
 
 #include "core/domain.hpp"
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
 #include "laws/list.hpp"
-#include "search/pairs.hpp"
+#include "search/neighbour_list.hpp"
 #include "soft/contact_memory.hpp"
 #include "soft/contacts.hpp"
 
 namespace chute::soft {
 
 /// The stages that turn places and velocities into forces, each a vectorised loop over arrays:
-/// find_touching → geometry → memory → normal → shear → apply. Each is split among a team by ranges of pairs,
-/// contacts or grains. A law is known inside its own stage only, so the compiled loops add up over the laws
-/// instead of multiplying. Where no law has a memory, that stage does nothing.
+/// find touching → geometry → memory → normal → shear → apply. A law is known inside its own stage only, so
+/// the compiled loops add up over the laws instead of multiplying. Where no law has a memory, that stage does
+/// nothing.
 template <int D>
 class ContactStages {
  public:
+  /// Which of the pairs touch, before their grains are named; kept, so that a step allocates nothing.
+  struct Touching {
+    std::vector<std::int64_t> hit;  // as wide as a double, to stay in the same vector lanes
+    std::vector<std::int32_t> pair;
+    void reserve(std::size_t pairs) {
+      if (hit.size() < pairs) hit.resize(pairs), pair.resize(pairs);
+    }
+  };
+
   ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa = best_isa(),
                 SlipRule rule = SlipRule::trapezoid);
 
-  /// Fills `contacts` from the pairs that may touch. Allocates only when the list has become longer than ever
-  /// before. `duration` is the time since the previous call; with 0 nothing happens to what the contacts
-  /// remember, but for limits that depend on the present normal force.
-  void evaluate(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
+  /// Fills `contacts` from the pairs that may touch, shared out among a team. Allocates only when the list
+  /// has become longer than ever before. `duration` is the time since the previous call; with 0 nothing
+  /// happens to what the contacts remember, but for limits that depend on the present normal force.
+  void evaluate(const search::Candidates<D>& candidates, const Grains<D>& grains, Contacts<D>& contacts,
                 double duration = 0, Team& team = Team::alone());
 
-  /// Sums the forces and torques of the contacts, in their order, on each grain.
-  void apply(const Contacts<D>& contacts, const Grains<D>& grains, std::array<Array, D>& force,
-             std::array<Array, turns<D>>& torque, Team& team) const;
+  /// The same for some ranges of the pairs, in ascending order, by one thread. Only for laws without a
+  /// memory.
+  void evaluate(const search::Candidates<D>& candidates, std::span<const Part> pairs, const Grains<D>& grains,
+                Contacts<D>& contacts, Touching& touching);
+
+  /// Adds what the contacts do to each grain, in their order, over `duration`.
+  void apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums,
+             Team& team) const;
+  /// The same for some of the contacts, and the moving grains only. `losses`: from which contact on they
+  /// count.
+  void apply(const Contacts<D>& contacts, Part which, const Grains<D>& grains, double duration,
+             std::size_t losses, GrainSums<D>& sums) const;
+
+  /// From now on evaluations tell whether any overlap is deeper than this (Contacts::deep).
+  void watch_for(double deepest) { deepest_ = deepest; }
 
   /// Energy stored in the contacts, in both directions.
   double elastic_energy(const Contacts<D>& contacts) const;
@@ -43,20 +66,16 @@ class ContactStages {
   Isa isa_;
   ContactMemory<D> memory_;
   bool needs_radius_;
-  std::vector<std::int64_t>
-      hit_;  // 1 where a pair touches; as wide as a double, to stay in the same vector lanes
-  std::vector<std::int32_t> touching_;
-
+  double deepest_ = std::numeric_limits<double>::infinity();
+  Touching touching_;
   std::vector<std::size_t> found_;  // by each of the team
 
-  void find_touching(const search::PairList& pairs, const Grains<D>& grains, Contacts<D>& contacts,
-                     Team& team);
+  std::size_t find(const search::Candidates<D>& candidates, const Grains<D>& grains, Part range,
+                   std::int64_t* hit, std::int32_t* pair) const;
   void name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts, const Team& team) const;
   void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
   void normal_forces(Part range, Contacts<D>& contacts, double duration);
   void shear_forces(Part range, Contacts<D>& contacts, double duration);
-  void apply_to(Part own, const Contacts<D>& contacts, const Grains<D>& grains, std::array<Array, D>& force,
-                std::array<Array, turns<D>>& torque) const;
 };
 
 }  // namespace chute::soft

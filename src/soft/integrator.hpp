@@ -3,6 +3,7 @@
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
 #include "core/team.hpp"
+#include "soft/contacts.hpp"
 
 namespace chute::soft {
 
@@ -26,12 +27,14 @@ class Integrator {
              Isa isa = best_isa());
 
   /// Takes the accelerations of the start from the forces there.
-  void start(Grains<D>& grains, const std::array<Array, D>& force, const std::array<Array, turns<D>>& torque);
-  void predict(Grains<D>& grains, Team& team = Team::alone());
-  void correct(Grains<D>& grains, const std::array<Array, D>& force,
-               const std::array<Array, turns<D>>& torque, Team& team = Team::alone());
-  void correct_and_predict(Grains<D>& grains, const std::array<Array, D>& force,
-                           const std::array<Array, turns<D>>& torque, Team& team = Team::alone());
+  void start(Grains<D>& grains, const GrainSums<D>& sums);
+  /// A prediction leaves the forces and torques on the moving grains at 0, for those of the new step to be
+  /// added up.
+  void predict(Grains<D>& grains, GrainSums<D>& sums, Team& team = Team::alone());
+  void correct(Grains<D>& grains, GrainSums<D>& sums, Team& team = Team::alone());
+  void correct_and_predict(Grains<D>& grains, GrainSums<D>& sums, Team& team = Team::alone());
+  /// The same for some of the moving grains.
+  void correct_and_predict(Grains<D>& grains, GrainSums<D>& sums, Part range);
 
   /// Higher derivatives, for checkpoints: [0] acceleration, [1], [2] its derivatives (gear5 only).
   std::array<std::array<Array, degrees>, 3>& derivatives() { return derivatives_; }
@@ -46,9 +49,8 @@ class Integrator {
   std::array<std::array<Array, degrees>, 3> derivatives_;
 
   template <bool Correct, bool Predict>
-  void pass(Grains<D>& grains, const std::array<Array, D>* force, const std::array<Array, turns<D>>* torque,
-            Team& team);
-  void wrap(Grains<D>& grains, Part range) const;
+  void pass(Grains<D>& grains, GrainSums<D>& sums, Part range);
+  void wrap(Grains<D>& grains, Part range, int k) const;
 };
 
 }  // namespace chute::soft

@@ -24,32 +24,35 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
       touches_(grains_.moving, setup.contact_time),
       team_(std::make_unique<Team>(setup.threads)) {
-  for (auto& f : force_) f.resize(grains_.size());
-  for (auto& t : torque_) t.resize(grains_.size());
+  sums_.resize(grains_.size());
+  const auto smallest = std::min_element(grains_.radius.begin(), grains_.radius.end());
+  if (smallest != grains_.radius.end()) stages_.watch_for(setup.deepest_overlap * *smallest);
   for (int k = 0; k < D; ++k)
     start_place_[k].assign(grains_.position[k].begin(),
                            grains_.position[k].begin() + static_cast<std::ptrdiff_t>(grains_.moving));
   forces(0);
-  integrator_.start(grains_, force_, torque_);
+  integrator_.start(grains_, sums_);
   account_.start = energy().stored();
 }
 
 template <int D>
 void SoftEngine<D>::advance_to(std::int64_t step) {
   if (step <= step_) return;
-  integrator_.predict(grains_, *team_);
+  integrator_.predict(grains_, sums_, *team_);
   for (;;) {
     ++step_;
     forces(setup_.time_step);
-    account(setup_.time_step);
+    account_.shear_loss += stages_.memory().released();
+    if (contacts_.deep) check_overlaps();
     if (collecting_) find_impacts();
     if (step_ == step) break;
-    integrator_.correct_and_predict(grains_, force_, torque_, *team_);
+    integrator_.correct_and_predict(grains_, sums_, *team_);
   }
-  integrator_.correct(grains_, force_, torque_, *team_);
+  integrator_.correct(grains_, sums_, *team_);
   check_floor();
 }
 
+/// Forces on the moving grains must be 0 before.
 template <int D>
 void SoftEngine<D>::forces(double duration) {
   try {
@@ -57,29 +60,21 @@ void SoftEngine<D>::forces(double duration) {
   } catch (const NotANumber& error) {
     leave_physics(error.grain, "its place is not a number: the time step is too long for these forces");
   }
-  stages_.apply(contacts_, grains_, force_, torque_, *team_);
+  sums_.clear({grains_.moving, grains_.size()});
+  stages_.apply(contacts_, grains_, duration, sums_, *team_);
 }
 
 template <int D>
-void SoftEngine<D>::account(double duration) {
-  double normal = 0, shear = 0, deepest = 0;
-  std::size_t where = 0;
+void SoftEngine<D>::check_overlaps() const {
   for (std::size_t c = 0; c < contacts_.count; ++c) {
-    normal += contacts_.normal_loss[c];
-    shear += contacts_.shear_loss[c];
-    if (contacts_.overlap[c] > deepest) deepest = contacts_.overlap[c], where = c;
+    const auto i = static_cast<std::size_t>(contacts_.i[c]), j = static_cast<std::size_t>(contacts_.j[c]);
+    const double depth = contacts_.overlap[c] / std::min(grains_.radius[i], grains_.radius[j]);
+    if (depth > setup_.deepest_overlap)
+      leave_physics(i,
+                    fmt::format("it overlaps grain {} by {:.3g} of the smaller radius (limit {}): stiffness "
+                                "is too low for these velocities",
+                                j, depth, setup_.deepest_overlap));
   }
-  account_.normal_loss += duration * normal;
-  account_.shear_loss += duration * shear + stages_.memory().released();
-  if (deepest == 0) return;
-  const auto i = static_cast<std::size_t>(contacts_.i[where]),
-             j = static_cast<std::size_t>(contacts_.j[where]);
-  const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
-  if (deepest > setup_.deepest_overlap * smaller)
-    leave_physics(i,
-                  fmt::format("it overlaps grain {} by {:.3g} of the smaller radius (limit {}): stiffness is "
-                              "too low for these velocities",
-                              j, deepest / smaller, setup_.deepest_overlap));
 }
 
 template <int D>
@@ -159,12 +154,16 @@ void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) co
 
 template <int D>
 GrainsView SoftEngine<D>::grains() const {
-  return view_of(grains_, force_, setup_.domain, time());
+  return view_of(grains_, sums_.force, setup_.domain, time());
 }
 
 template <int D>
 EnergyAccount SoftEngine<D>::energy() const {
   EnergyAccount e = account_;
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    e.normal_loss += sums_.normal_loss[i];
+    e.shear_loss += sums_.shear_loss[i];
+  }
   e.add_motion(grains(), setup_.gravity, start_place_);
   e.elastic = stages_.elastic_energy(contacts_);
   return e;
@@ -188,8 +187,8 @@ template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   auto& g = self.grains_;
   archive(g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
-          self.account_.start, self.account_.normal_loss, self.account_.shear_loss, self.step_,
-          self.collecting_, self.touched_, self.touches_, self.stages_.memory());
+          self.account_.start, self.account_.shear_loss, self.sums_.normal_loss, self.sums_.shear_loss,
+          self.step_, self.collecting_, self.touched_, self.touches_, self.stages_.memory());
 }
 
 template <int D>
@@ -205,6 +204,7 @@ void SoftEngine<D>::restore(std::istream& in) {
   // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember
   // is from the forces of the last step, at the predicted places; it must not see the corrected ones.
   const auto remembered = stages_.memory();
+  sums_.clear({0, grains_.moving});
   forces(0);
   stages_.memory() = remembered;
 }

@@ -53,10 +53,9 @@ class SoftEngine final : public Engine {
   ContactStages<D> stages_;
   Integrator<D> integrator_;
   Contacts<D> contacts_;
-  std::array<Array, D> force_;
-  std::array<Array, turns<D>> torque_;
+  GrainSums<D> sums_;
   std::array<Array, D> start_place_;  // of the moving grains, for gravity's work
-  EnergyAccount account_;             // start and losses; the rest is computed when asked for
+  EnergyAccount account_;             // start, and the losses that are no grain's; the rest when asked for
   std::int64_t step_ = 0;
   bool collecting_ = false;
   std::vector<Impact> impacts_;
@@ -65,7 +64,7 @@ class SoftEngine final : public Engine {
   std::unique_ptr<Team> team_;
 
   void forces(double duration);
-  void account(double duration);
+  void check_overlaps() const;
   void find_impacts();
   void remember_touching();
   Impact impact(std::size_t contact) const;

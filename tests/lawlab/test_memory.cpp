@@ -141,19 +141,19 @@ TEST_CASE("A pair that turns as one body keeps its tangential spring, about ever
                           laws::CundallStrack{{1e5, 0, 0, 0}, {1e9, true}}};
   soft::ContactStages<3> stages(Domain<3>{}, law);
   soft::Contacts<3> contacts;
-  search::PairList pairs;
-  pairs.add(0, 1, 2 * R);
   for (const Vec<3>& axis :
        {Vec<3>{{1, 0, 0}}, Vec<3>{{0, 1, 0}}, Vec<3>{{0, 0, 1}}, Vec<3>{{0.48, 0.6, 0.64}}}) {
     stages.memory() = soft::ContactMemory<3>(law, soft::SlipRule::trapezoid);
     Grains<3> grains;
     grains.add({{-R + xi / 2, 0, 0}}, R, 1, 0.1, true);
     grains.add({{R - xi / 2, 0, 0}}, R, 1, 0.1, true);
-    stages.evaluate(pairs, grains, contacts, 0);
+    search::PairList pairs;
+    pairs.add(grains, 0, 1);
+    stages.evaluate({pairs}, grains, contacts, 0);
     grains.velocity[1][1] = push / dt;  // one step's slip, by the spring's own count of it
-    stages.evaluate(pairs, grains, contacts, dt);
+    stages.evaluate({pairs}, grains, contacts, dt);
     grains.velocity[1][1] = 0;
-    stages.evaluate(pairs, grains, contacts, dt);
+    stages.evaluate({pairs}, grains, contacts, dt);
     const Vec<3> before{{contacts.shear_force[0][0], contacts.shear_force[1][0], contacts.shear_force[2][0]}};
     REQUIRE(before[1] < -50);
 
@@ -172,7 +172,7 @@ TEST_CASE("A pair that turns as one body keeps its tangential spring, about ever
           grains.velocity[c][g] = speed[c];
           grains.spin[c][g] = omega * axis[c];
         }
-        if (g == 1) stages.evaluate(pairs, grains, contacts, dt);
+        if (g == 1) stages.evaluate({pairs}, grains, contacts, dt);
       }
     const auto expected = rotate(before, omega * steps * dt);
     for (int c = 0; c < 3; ++c) {

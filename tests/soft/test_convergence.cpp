@@ -18,23 +18,24 @@ Error oscillate(soft::Scheme scheme, int steps, double damping) {
   const double end = 2.5, dt = end / steps;
   Grains<2> grains;
   add_ball<2>(grains, {{0, 0}}, {{1, 0}}, 1, 1);
-  std::array<Array, 2> force{Array(1), Array(1)};
-  std::array<Array, 1> torque{Array(1)};
+  soft::GrainSums<2> sums;
+  sums.resize(1);
+  auto& force = sums.force;
   const auto pull = [&] {
     force[0][0] = -truth.k * grains.position[0][0] - truth.gamma * grains.velocity[0][0];
   };
   soft::Integrator<2> integrator(scheme, dt, {}, {});
   pull();
-  integrator.start(grains, force, torque);
+  integrator.start(grains, sums);
   if (scheme == soft::Scheme::gear5) {
     const double a = force[0][0], b = -truth.k * 1 - truth.gamma * a;  // each follows from the two before it
     integrator.derivatives()[1][0][0] = b;
     integrator.derivatives()[2][0][0] = -truth.k * a - truth.gamma * b;
   }
   for (int i = 0; i < steps; ++i) {
-    integrator.predict(grains);
+    integrator.predict(grains, sums);
     pull();
-    integrator.correct(grains, force, torque);
+    integrator.correct(grains, sums);
   }
   const auto exact = truth.at(end, 0, 1);
   return {std::abs(grains.position[0][0] - exact[0]), std::abs(grains.velocity[0][0] - exact[1])};
@@ -67,15 +68,16 @@ Error order(Problem problem, soft::Scheme scheme, double damping) {
 double slip_left(soft::Scheme scheme, double rate) {
   Grains<2> grains;
   add_ball<2>(grains, {{0, 0}}, {{1, 0}}, 1, 1);
-  std::array<Array, 2> force{Array(1), Array(1)};
-  std::array<Array, 1> torque{Array(1)};
+  soft::GrainSums<2> sums;
+  sums.resize(1);
+  auto& force = sums.force;
   soft::Integrator<2> integrator(scheme, 1, {}, {});
   force[0][0] = -rate;
-  integrator.start(grains, force, torque);
+  integrator.start(grains, sums);
   for (int i = 0; i < 400; ++i) {
-    integrator.predict(grains);
+    integrator.predict(grains, sums);
     force[0][0] = -rate * grains.velocity[0][0];
-    integrator.correct(grains, force, torque);
+    integrator.correct(grains, sums);
   }
   return std::abs(grains.velocity[0][0]);
 }
