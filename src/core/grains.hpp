@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <span>
 #include <vector>
@@ -28,6 +29,13 @@ using Array = std::vector<double, CacheAligned<double>>;
 /// Components of a turn: one about the plane's normal in 2D, three in 3D.
 template <int D>
 inline constexpr int turns = D == 2 ? 1 : 3;
+
+/// Element k becomes what element from[k] was, for all k that `from` has; the others stay.
+template <class Values>
+void reorder(Values& values, std::span<const std::int32_t> from) {
+  const Values old(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(from.size()));
+  for (std::size_t k = 0; k < from.size(); ++k) values[k] = old[static_cast<std::size_t>(from[k])];
+}
 
 /// The state of all grains, one array per field. Moving grains come first, [0, moving); fixed ones (the bed)
 /// follow. A grain's index is its id in every file. 2D spins count anticlockwise (x downhill, y up from the
@@ -70,6 +78,14 @@ struct Grains {
     inverse_mass.push_back(moves ? 1 / grain_mass : 0);
     inverse_inertia.push_back(moves ? 1 / grain_inertia : 0);
     moving += moves;
+  }
+
+  /// Puts the moving grains into another order: grain k becomes what grain from[k] was. Fixed ones stay.
+  void reorder(std::span<const std::int32_t> from) {
+    for (int k = 0; k < D; ++k)
+      chute::reorder(position[k], from), chute::reorder(velocity[k], from), chute::reorder(wraps[k], from);
+    for (int k = 0; k < turns<D>; ++k) chute::reorder(angle[k], from), chute::reorder(spin[k], from);
+    for (auto* a : {&radius, &mass, &inertia, &inverse_mass, &inverse_inertia}) chute::reorder(*a, from);
   }
 
  private:

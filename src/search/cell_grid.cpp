@@ -44,6 +44,34 @@ struct Layout {
   int index_along(int k, double x) const {
     return std::clamp(static_cast<int>(std::floor((x - lower[k]) / width[k])), 0, count[k] - 1);
   }
+  /// Is there a period of fewer than three cells?
+  bool narrow(const Domain<D>& domain) const {
+    for (int k = 0; k < D; ++k)
+      if (domain.periodic(k) && count[k] < 3) return true;
+    return false;
+  }
+  /// look(first, last) for all cells next to `home` and itself, by ranges of cells with consecutive numbers.
+  template <class Look>
+  void for_neighbours(const Domain<D>& domain, const std::array<int, D>& home, const Look& look) const {
+    constexpr int lines = D == 2 ? 3 : 9, along = D - 1;
+    for (int line = 0; line < lines; ++line) {
+      auto cell = home;
+      bool inside = true;
+      for (int k = 0, w = line; k < along; ++k, w /= 3) {
+        cell[k] += w % 3 - 1;
+        if (domain.periodic(k))
+          cell[k] = (cell[k] + count[k]) % count[k];
+        else
+          inside = inside && cell[k] >= 0 && cell[k] < count[k];
+      }
+      if (!inside) continue;
+      const int base = flat(cell) - cell[along], c = home[along], last = count[along] - 1;
+      look(base + std::max(c - 1, 0), base + std::min(c + 1, last));
+      if (!domain.periodic(along)) continue;
+      if (c == 0) look(base + last, base + last);
+      if (c == last) look(base, base);
+    }
+  }
   int flat(const std::array<int, D>& c) const {
     int n = 0;
     for (int k = 0; k < D; ++k) n = n * count[k] + c[k];
@@ -75,42 +103,36 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
   for (std::size_t i = n; i-- > 0;) {  // backwards through the grains: ids ascend within a cell
     const auto cell = static_cast<std::size_t>(cell_of_[i]) + 1;
-    member_[--start_[cell]] = static_cast<std::int32_t>(i);
+    member_[static_cast<std::size_t>(--start_[cell])] = {grains.place(i), grains.radius[i],
+                                                         static_cast<std::int32_t>(i)};
   }
   // After the loop start_[c + 1] is where cell c begins; the end of cell c is the begin of c + 1.
-  const auto begin_of = [&](int c) { return start_[static_cast<std::size_t>(c) + 1]; };
+  const auto begin_of = [&](int c) { return static_cast<std::size_t>(start_[static_cast<std::size_t>(c) + 1]); };
   const auto end_of = [&](int c) {
-    return static_cast<std::size_t>(c) + 2 < start_.size() ? start_[static_cast<std::size_t>(c) + 2]
-                                                           : static_cast<std::int32_t>(n);
+    return static_cast<std::size_t>(c) + 2 < start_.size()
+               ? static_cast<std::size_t>(start_[static_cast<std::size_t>(c) + 2])
+               : n;
   };
 
-  int neighbours = 1;
-  for (int k = 0; k < D; ++k) neighbours *= 3;
   const auto find_of = [&](std::size_t i, std::vector<std::int32_t>& row, PairList& found) {
     row.clear();
     const auto home = cell_at(i);
-    std::array<int, 27> seen;  // with fewer than three periodic cells a neighbour can appear twice
-    int seen_count = 0;
-    for (int way = 0; way < neighbours; ++way) {
-      auto cell = home;
-      bool inside = true;
-      for (int k = 0, w = way; k < D; ++k, w /= 3) {
-        cell[k] += w % 3 - 1;
-        if (domain.periodic(k))
-          cell[k] = (cell[k] + layout.count[k]) % layout.count[k];
-        else
-          inside = inside && cell[k] >= 0 && cell[k] < layout.count[k];
+    const auto here = grains.place(i);
+    const double own = grains.radius[i] + skin;
+    const auto look = [&](int first, int last) {  // through cells that follow on each other
+      for (std::size_t m = begin_of(first), end = end_of(last); m < end; ++m) {
+        const Member& other = member_[m];
+        const auto j = static_cast<std::size_t>(other.id);
+        if (j <= i || (grains.independent && j < grains.moving)) continue;
+        const auto way = domain.way(here, other.place);
+        const double reach = own + other.radius;
+        if (dot(way, way) < reach * reach) row.push_back(other.id);
       }
-      if (!inside) continue;
-      const int flat = layout.flat(cell);
-      if (std::find(seen.begin(), seen.begin() + seen_count, flat) != seen.begin() + seen_count) continue;
-      seen[static_cast<std::size_t>(seen_count++)] = flat;
-      for (auto m = begin_of(flat); m < end_of(flat); ++m) {
-        const auto j = static_cast<std::size_t>(member_[static_cast<std::size_t>(m)]);
-        if (j > i && within(grains, domain, i, j, skin)) row.push_back(static_cast<std::int32_t>(j));
-      }
-    }
+    };
+    layout.for_neighbours(domain, home, look);
+    // with fewer than three periodic cells a neighbour can appear twice
     std::sort(row.begin(), row.end());
+    if (layout.narrow(domain)) row.erase(std::unique(row.begin(), row.end()), row.end());
     for (const auto j : row) found.add(grains, i, static_cast<std::size_t>(j));
   };
   row_.resize(team.size());

@@ -28,6 +28,7 @@ struct CoarsePlaces {
   Vec<D> quantum{};     ///< period / 2³²
   double margin = 0;    ///< how wrong the square of a way up to `longest_way` can be
 
+  bool ready() const { return margin > 0; }
   /// For grains of a pair that are at most `longest_way` apart.
   void set_up(const Domain<D>& domain, double longest_way) {
     for (int k = 0; k < D; ++k) {

@@ -162,19 +162,40 @@ void NeighbourList<D>::set_up_coarse(const Grains<D>& grains) {
 
 template <int D>
 Candidates<D> NeighbourList<D>::near(const Grains<D>& grains, Team& team) {
-  const bool first = near_builds_ == 0;
-  if (first) set_up_coarse(grains);
+  if (!coarse_.ready()) set_up_coarse(grains);
   std::atomic<bool> moved_far = false;
   team.split(grains.moving, [&](Part range, std::size_t) {
     if (survey(grains, range)) moved_far.store(true, std::memory_order_relaxed);
   });
-  if (first || moved_far) {
-    // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the
-    // way moved.
-    if (first || moved(grains, far_places_, (skins_.far - skins_.near) / 2, team)) build_far(grains, team);
-    build_near(grains, team);
+  if (!known_ || moved_far) renew(grains, team);
+  return latest();
+}
+
+template <int D>
+void NeighbourList<D>::renew(const Grains<D>& grains, Team& team) {
+  // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the way
+  // moved.
+  if (!known_ || moved(grains, far_places_, (skins_.far - skins_.near) / 2, team)) build_far(grains, team);
+  build_near(grains, team);
+  known_ = true;
+}
+
+template <int D>
+std::int64_t NeighbourList<D>::lasts(const Grains<D>& grains, double time_step) const {
+  double way_squared = 0, speed_squared = 0;
+  for (std::size_t i = 0; i < grains.moving; ++i) {
+    double d2 = 0, v2 = 0;
+    for (int k = 0; k < D; ++k) {
+      const double d = Domain<D>::nearest_image(grains.position[k][i] - near_places_[k][i],
+                                                domain_.length[k], 0.5 * domain_.length[k]);
+      d2 += d * d;
+      v2 += grains.velocity[k][i] * grains.velocity[k][i];
+    }
+    way_squared = std::max(way_squared, d2);
+    speed_squared = std::max(speed_squared, v2);
   }
-  return {near_, astray_ ? nullptr : &coarse_};
+  const double left = skins_.near / 2 - std::sqrt(way_squared), step = std::sqrt(speed_squared) * time_step;
+  return left > 0 ? static_cast<std::int64_t>(std::min(left / step, 1e9)) : 0;
 }
 
 template class NeighbourList<2>;

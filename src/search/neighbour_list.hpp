@@ -34,6 +34,19 @@ class NeighbourList {
   /// Pairs that may touch now. NotANumber if a place is not a number.
   Candidates<D> near(const Grains<D>& grains, Team& team = Team::alone());
 
+  /// For who calls `survey` himself, of every grain after every step, instead of `near`: the pairs hold as long
+  /// as no survey of the grains in `range` says that one has moved too far. It also renews their coarse
+  /// places.
+  Candidates<D> latest() const { return {near_, astray_ ? nullptr : &coarse_}; }
+  bool survey(const Grains<D>& grains, Part range);
+  auto& coarse_words() { return coarse_.word; }
+  /// How many steps the pairs will hold at the present velocities; a guess, for surveys to confirm.
+  std::int64_t lasts(const Grains<D>& grains, double time_step) const;
+  /// Makes the near list anew before it must be.
+  void renew(const Grains<D>& grains, Team& team);
+  /// The grains have another order now; nothing that was known of them holds.
+  void forget() { known_ = false; }
+
   std::int64_t near_builds() const { return near_builds_; }
   std::int64_t far_builds() const { return far_builds_; }
 
@@ -46,12 +59,12 @@ class NeighbourList {
   PairList far_, near_;
   std::vector<PairList> parts_;                    // of the near list, while it is made
   std::array<Array, D> near_places_, far_places_;  // of the moving grains, when each list was made
+  bool known_ = false;
   CoarsePlaces<D> coarse_;
   std::atomic<bool> astray_ = false;  // has a grain ever been too far away for coarse places?
   std::int64_t near_builds_ = 0, far_builds_ = 0;
 
   bool moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit, Team& team) const;
-  bool survey(const Grains<D>& grains, Part range);
   void set_up_coarse(const Grains<D>& grains);
   void remember(const Grains<D>& grains, std::array<Array, D>& places) const;
   void build_far(const Grains<D>& grains, Team& team);

@@ -54,8 +54,15 @@ class CellGrid {
             Team& team = Team::alone());
 
  private:
+  /// A grain, copied to where its cell is.
+  struct Member {
+    Vec<D> place;
+    double radius;
+    std::int32_t id;
+  };
   // kept, so that a rebuild allocates nothing new
-  std::vector<std::int32_t> cell_of_, start_, member_;
+  std::vector<std::int32_t> cell_of_, start_;
+  std::vector<Member> member_;
   std::vector<std::vector<std::int32_t>> row_;  // for each of the team
   std::vector<PairList> parts_;
 };

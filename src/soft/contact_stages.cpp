@@ -48,38 +48,33 @@ void pad(Contacts<D>& contacts) {
   }
 }
 
-/// Adds what contacts do to the sums of their grains.
+/// The first contact that begins with this grain or a later one.
+template <int D>
+std::size_t first_of(const Contacts<D>& contacts, std::size_t grain) {
+  const auto *begin = contacts.i.data(), *end = begin + contacts.count;
+  return static_cast<std::size_t>(std::lower_bound(begin, end, static_cast<std::int32_t>(grain)) - begin);
+}
+
+/// Adds the forces of contacts to those of their grains.
 template <int D>
 struct Adder {
   const std::int32_t *first, *second;
   std::array<const double*, D> normal;
   std::array<const double*, turns<D>> shear_force;
-  const double *normal_force, *normal_power, *shear_power, *radius;
-  double duration;
+  const double *normal_force, *radius;
   std::array<double*, D> force;
   std::array<double*, turns<D>> torque;
-  double *normal_loss, *shear_loss;
 
-  Adder(const Contacts<D>& c, const Grains<D>& grains, double over, GrainSums<D>& sums)
+  Adder(const Contacts<D>& c, const Grains<D>& grains, GrainSums<D>& sums)
       : first(c.i.data()),
         second(c.j.data()),
         normal(pointers(c.normal)),
         shear_force(pointers(c.shear_force)),
         normal_force(c.normal_force.data()),
-        normal_power(c.normal_loss.data()),
-        shear_power(c.shear_loss.data()),
         radius(grains.radius.data()),
-        duration(over),
         force(pointers(sums.force)),
-        torque(pointers(sums.torque)),
-        normal_loss(sums.normal_loss.data()),
-        shear_loss(sums.shear_loss.data()) {}
+        torque(pointers(sums.torque)) {}
 
-  void loss(std::size_t c) const {
-    const auto i = static_cast<std::size_t>(first[c]);
-    normal_loss[i] += duration * normal_power[c];
-    shear_loss[i] += duration * shear_power[c];
-  }
   void forces(std::size_t c, bool to_i, bool to_j) const {
     const auto i = static_cast<std::size_t>(first[c]), j = static_cast<std::size_t>(second[c]);
     Vec<D> f, n;
@@ -107,6 +102,17 @@ struct Adder {
     }
   }
 };
+
+template <int D>
+void add_losses(const Contacts<D>& contacts, Part which, double duration, GrainSums<D>& sums) {
+  const double *normal = contacts.normal_loss.data(), *shear = contacts.shear_loss.data();
+  double *normal_sum = sums.normal_loss.data(), *shear_sum = sums.shear_loss.data();
+  for (std::size_t c = which.begin; c < which.end; ++c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]);
+    normal_sum[i] += duration * normal[c];
+    shear_sum[i] += duration * shear[c];
+  }
+}
 
 }  // namespace
 
@@ -289,36 +295,38 @@ void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double du
 template <int D>
 void ContactStages<D>::apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
                              GrainSums<D>& sums, Team& team) const {
-  const Adder<D> add(contacts, grains, duration, sums);
+  const Adder<D> add(contacts, grains, sums);
   if (team.size() == 1) {
-    for (std::size_t c = 0; c < contacts.count; ++c) add.forces(c, true, true), add.loss(c);
+    for (std::size_t c = 0; c < contacts.count; ++c) add.forces(c, true, true);
+    add_losses(contacts, {0, contacts.count}, duration, sums);
     return;
   }
-  const auto until = contacts.i.begin() + static_cast<std::ptrdiff_t>(contacts.count);
-  const auto contact_of = [&](std::size_t grain) {
-    return static_cast<std::size_t>(
-        std::lower_bound(contacts.i.begin(), until, static_cast<std::int32_t>(grain)) - contacts.i.begin());
-  };
   team.run([&](std::size_t member) {
     Part own = team.part(grains.moving, member);
     if (member + 1 == team.size()) own.end = grains.size();  // with the bed
     const auto is_own = [&](std::int32_t j) {
       return static_cast<std::size_t>(j) >= own.begin && static_cast<std::size_t>(j) < own.end;
     };
-    const std::size_t first = contact_of(own.begin), last = contact_of(own.end);
+    const std::size_t first = first_of(contacts, own.begin), last = first_of(contacts, own.end);
     for (std::size_t c = 0; c < first; ++c)
       if (is_own(contacts.j[c])) add.forces(c, false, true);
-    for (std::size_t c = first; c < last; ++c) add.forces(c, true, is_own(contacts.j[c])), add.loss(c);
+    for (std::size_t c = first; c < last; ++c) add.forces(c, true, is_own(contacts.j[c]));
+    add_losses(contacts, {first, last}, duration, sums);
   });
 }
 
 template <int D>
-void ContactStages<D>::apply(const Contacts<D>& contacts, Part which, const Grains<D>& grains,
-                             double duration, std::size_t losses, GrainSums<D>& sums) const {
-  const Adder<D> add(contacts, grains, duration, sums);
-  for (std::size_t c = which.begin; c < which.end; ++c)
+void ContactStages<D>::apply_forces(const Contacts<D>& contacts, const Grains<D>& grains,
+                                    GrainSums<D>& sums) const {
+  const Adder<D> add(contacts, grains, sums);
+  for (std::size_t c = 0; c < contacts.count; ++c)
     add.forces(c, true, static_cast<std::size_t>(contacts.j[c]) < grains.moving);
-  for (std::size_t c = losses; c < which.end; ++c) add.loss(c);
+}
+
+template <int D>
+void ContactStages<D>::apply_losses(const Contacts<D>& contacts, Part range, double duration,
+                                    GrainSums<D>& sums) const {
+  add_losses(contacts, {first_of(contacts, range.begin), first_of(contacts, range.end)}, duration, sums);
 }
 
 template <int D>

@@ -46,10 +46,10 @@ class ContactStages {
   /// Adds what the contacts do to each grain, in their order, over `duration`.
   void apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums,
              Team& team) const;
-  /// The same for some of the contacts, and the moving grains only. `losses`: from which contact on they
-  /// count.
-  void apply(const Contacts<D>& contacts, Part which, const Grains<D>& grains, double duration,
-             std::size_t losses, GrainSums<D>& sums) const;
+  /// The same apart: forces and torques on the moving grains only, of all contacts;
+  void apply_forces(const Contacts<D>& contacts, const Grains<D>& grains, GrainSums<D>& sums) const;
+  /// and the losses of those contacts that begin with a grain in `range`.
+  void apply_losses(const Contacts<D>& contacts, Part range, double duration, GrainSums<D>& sums) const;
 
   /// From now on evaluations tell whether any overlap is deeper than this (Contacts::deep).
   void watch_for(double deepest) { deepest_ = deepest; }

@@ -8,6 +8,7 @@
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "common/error.hpp"
 #include "core/not_a_number.hpp"
@@ -23,7 +24,8 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
       touches_(grains_.moving, setup.contact_time),
-      team_(std::make_unique<Team>(setup.threads)) {
+      team_(std::make_unique<Team>(setup.threads)),
+      tiles_(std::make_unique<TimeTiles<D>>(*strips_, setup.schedule.grains_per_tile)) {
   sums_.resize(grains_.size());
   const auto smallest = std::min_element(grains_.radius.begin(), grains_.radius.end());
   if (smallest != grains_.radius.end()) stages_.watch_for(setup.deepest_overlap * *smallest);
@@ -40,6 +42,8 @@ void SoftEngine<D>::advance_to(std::int64_t step) {
   if (step <= step_) return;
   integrator_.predict(grains_, sums_, *team_);
   for (;;) {
+    if (sorts() && step_ % setup_.schedule.sort_every == 0) sort();
+    if (advance_in_tiles(step)) continue;
     ++step_;
     forces(setup_.time_step);
     account_.shear_loss += stages_.memory().released();
@@ -52,16 +56,83 @@ void SoftEngine<D>::advance_to(std::int64_t step) {
   check_floor();
 }
 
-/// Forces on the moving grains must be 0 before.
 template <int D>
-void SoftEngine<D>::forces(double duration) {
+search::Candidates<D> SoftEngine<D>::candidates() {
   try {
-    stages_.evaluate(list_.near(grains_, *team_), grains_, contacts_, duration, *team_);
+    return list_.near(grains_, *team_);
   } catch (const NotANumber& error) {
     leave_physics(error.grain, "its place is not a number: the time step is too long for these forces");
   }
+}
+
+/// Forces on the moving grains must be 0 before.
+template <int D>
+void SoftEngine<D>::forces(double duration) {
+  stages_.evaluate(candidates(), grains_, contacts_, duration, *team_);
   sums_.clear({grains_.moving, grains_.size()});
   stages_.apply(contacts_, grains_, duration, sums_, *team_);
+}
+
+/// What remembers grains by their ids from step to step does not let them be sorted.
+template <int D>
+bool SoftEngine<D>::sorts() const {
+  return grains_.moving >= setup_.schedule.sort_from && !collecting_ && !stages_.memory().needed();
+}
+
+/// Takes some of the steps on the way to `step`, from predicted places to predicted places, if it can.
+template <int D>
+bool SoftEngine<D>::advance_in_tiles(std::int64_t step) {
+  const auto& schedule = setup_.schedule;
+  const bool pays = team_->size() > 1 || grains_.moving > 2 * schedule.grains_per_tile;
+  if (!schedule.tiles || !pays || order_.empty() || !sorts()) return false;
+  const StepParts<D> parts{grains_,     sums_,  list_,           stages_,
+                           integrator_, *team_, setup_.time_step};
+  const std::int64_t unsorted = schedule.sort_every - step_ % schedule.sort_every;
+  candidates();  // up to date
+  const std::int64_t steps = tiles_->possible(parts, std::min(step - 1 - step_, unsorted));
+  if (steps == 0) return false;
+  if (!tiles_->advance(parts, steps)) {
+    ++undone_;
+    return false;
+  }
+  step_ += steps;
+  tiled_steps_ += steps;
+  return true;
+}
+
+template <int D>
+void SoftEngine<D>::sort() {
+  reorder(strips_->sort(grains_, setup_.domain));
+  tiles_->sorted();
+}
+
+template <int D>
+void SoftEngine<D>::reorder(std::span<const std::int32_t> from) {
+  if (order_.empty()) {
+    order_.resize(grains_.moving);
+    std::iota(order_.begin(), order_.end(), 0);
+  }
+  grains_.reorder(from);
+  for (auto& order : integrator_.derivatives())
+    for (auto& a : order)
+      if (!a.empty()) chute::reorder(a, from);
+  chute::reorder(sums_.normal_loss, from);
+  chute::reorder(sums_.shear_loss, from);
+  chute::reorder(order_, from);
+  list_.forget();
+}
+
+/// The order of ids again, with the contacts of this instant.
+template <int D>
+void SoftEngine<D>::back_to_ids() {
+  if (order_.empty()) return;
+  std::vector<std::int32_t> place(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    place[static_cast<std::size_t>(order_[k])] = static_cast<std::int32_t>(k);
+  reorder(place);
+  order_.clear();
+  sums_.clear({0, grains_.moving});
+  forces(0);
 }
 
 template <int D>
@@ -73,7 +144,7 @@ void SoftEngine<D>::check_overlaps() const {
       leave_physics(i,
                     fmt::format("it overlaps grain {} by {:.3g} of the smaller radius (limit {}): stiffness "
                                 "is too low for these velocities",
-                                j, depth, setup_.deepest_overlap));
+                                id_at(j), depth, setup_.deepest_overlap));
   }
 }
 
@@ -120,6 +191,7 @@ Impact SoftEngine<D>::impact(std::size_t contact) const {
 template <int D>
 void SoftEngine<D>::collect_impacts(bool on) {
   if (on && !collecting_) {  // what touches already is no impact
+    back_to_ids();
     remember_touching();
     touches_ = TouchLog(grains_.moving, setup_.contact_time);
     for (const auto& [i, j] : touched_)
@@ -149,12 +221,20 @@ void SoftEngine<D>::check_floor() const {
 template <int D>
 void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
   throw WorkError(
-      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, grain, what));
+      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, id_at(grain), what));
 }
 
 template <int D>
 GrainsView SoftEngine<D>::grains() const {
-  return view_of(grains_, sums_.force, setup_.domain, time());
+  if (order_.empty()) return view_of(grains_, sums_.force, setup_.domain, time());
+  std::vector<std::int32_t> place(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    place[static_cast<std::size_t>(order_[k])] = static_cast<std::int32_t>(k);
+  by_id_ = grains_;
+  by_id_.reorder(place);
+  force_by_id_ = sums_.force;
+  for (auto& f : force_by_id_) chute::reorder(f, place);
+  return view_of(by_id_, force_by_id_, setup_.domain, time());
 }
 
 template <int D>
@@ -175,9 +255,16 @@ std::vector<ContactRecord> SoftEngine<D>::contacts() const {
   for (std::size_t c = 0; c < contacts_.count; ++c) {
     double shear = 0;
     for (const auto& component : contacts_.shear_force) shear += component[c] * component[c];
-    records[c] = {contacts_.i[c], contacts_.j[c], contacts_.overlap[c], contacts_.normal_force[c],
+    const auto i = static_cast<std::int64_t>(id_at(static_cast<std::size_t>(contacts_.i[c])));
+    const auto j = static_cast<std::int64_t>(id_at(static_cast<std::size_t>(contacts_.j[c])));
+    // F_s counts along s, which turns around with n: it is the same from either side.
+    records[c] = {std::min(i, j), std::max(i, j), contacts_.overlap[c], contacts_.normal_force[c],
                   turns<D> == 1 ? contacts_.shear_force[0][c] : std::sqrt(shear)};
   }
+  if (!order_.empty())
+    std::sort(records.begin(), records.end(), [](const ContactRecord& a, const ContactRecord& b) {
+      return std::pair(a.i, a.j) < std::pair(b.i, b.j);
+    });
   return records;
 }
 
@@ -186,7 +273,7 @@ template <int D>
 template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   auto& g = self.grains_;
-  archive(g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
+  archive(self.order_, g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
           self.account_.start, self.account_.shear_loss, self.sums_.normal_loss, self.sums_.shear_loss,
           self.step_, self.collecting_, self.touched_, self.touches_, self.stages_.memory());
 }
@@ -199,8 +286,14 @@ void SoftEngine<D>::save(std::ostream& out) const {
 
 template <int D>
 void SoftEngine<D>::restore(std::istream& in) {
+  back_to_ids();  // for the constants, which are not in the archive
   cereal::PortableBinaryInputArchive archive(in);
   transfer(archive, *this);
+  if (!order_.empty())
+    for (auto* a : {&grains_.radius, &grains_.mass, &grains_.inertia, &grains_.inverse_mass,
+                    &grains_.inverse_inertia})
+      chute::reorder(*a, order_);
+  list_.forget();
   // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember
   // is from the forces of the last step, at the predicted places; it must not see the corrected ones.
   const auto remembered = stages_.memory();

@@ -5,8 +5,19 @@
 #include "search/neighbour_list.hpp"
 #include "soft/contact_stages.hpp"
 #include "soft/integrator.hpp"
+#include "soft/strips.hpp"
+#include "soft/time_tiles.hpp"
 
 namespace chute::soft {
+
+/// How the engine goes about many grains. `sort_from` and `sort_every` are part of what makes the bytes; the
+/// others only cost or save time.
+struct Schedule {
+  std::size_t sort_from = 2000;        ///< so many moving grains are kept in an order of places
+  std::int64_t sort_every = 1024;      ///< steps
+  std::size_t grains_per_tile = 4096;  ///< see TimeTiles
+  bool tiles = true;
+};
 
 /// What a soft-sphere run needs besides its grains.
 template <int D>
@@ -23,10 +34,14 @@ struct SoftSetup {
   search::Method search = search::Method::cells;
   Isa isa = best_isa();
   int threads = 1;  ///< results do not depend on it
+  Schedule schedule{};
 };
 
 /// Time-step driven molecular dynamics of soft grains, thesis 2.1.1. A step:
 /// predict → neighbour list → contacts → forces → account → impacts → correct.
+///
+/// Inside, many grains are kept in the order of Strips, and take several steps at once (TimeTiles) where nobody
+/// looks. Outside they always have their ids.
 template <int D>
 class SoftEngine final : public Engine {
  public:
@@ -43,7 +58,16 @@ class SoftEngine final : public Engine {
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
 
+  /// The grains as they are kept: see `id_at`.
   const Grains<D>& state() const { return grains_; }
+  /// Id of the grain that is kept at this place.
+  std::size_t id_at(std::size_t place) const {
+    return place < order_.size() ? static_cast<std::size_t>(order_[place]) : place;
+  }
+  /// Steps that were taken several at once.
+  std::int64_t tiled_steps() const { return tiled_steps_; }
+  /// How often such steps had to be taken back.
+  std::int64_t undone() const { return undone_; }
   const search::NeighbourList<D>& neighbours() const { return list_; }
 
  private:
@@ -62,8 +86,20 @@ class SoftEngine final : public Engine {
   std::vector<std::pair<std::int32_t, std::int32_t>> touched_;  // contacts of the previous step
   TouchLog touches_;
   std::unique_ptr<Team> team_;
+  std::vector<std::int32_t> order_;  // id of the grain at each place; empty: as they are
+  std::unique_ptr<Strips<D>> strips_ = std::make_unique<Strips<D>>();
+  std::unique_ptr<TimeTiles<D>> tiles_;
+  std::int64_t tiled_steps_ = 0, undone_ = 0;
+  mutable Grains<D> by_id_;  // for who looks, if they are kept in another order
+  mutable std::array<Array, D> force_by_id_;
 
+  search::Candidates<D> candidates();
   void forces(double duration);
+  bool sorts() const;
+  bool advance_in_tiles(std::int64_t step);
+  void sort();
+  void reorder(std::span<const std::int32_t> from);
+  void back_to_ids();
   void check_overlaps() const;
   void find_impacts();
   void remember_touching();

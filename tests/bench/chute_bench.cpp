@@ -87,7 +87,7 @@ void steps(benchmark::State& state, std::int64_t grains, Isa isa, int threads) {
   auto setup = setup_of(scene, domain, isa);
   setup.threads = threads;
   soft::SoftEngine<2> engine(copies(settled(tile), length, count), setup);
-  const std::int64_t slice = std::max<std::int64_t>(50, 300'000 / grains);
+  const std::int64_t slice = std::max<std::int64_t>(250, 300'000 / grains);
   engine.advance_to(slice);  // the first lists
   const auto lists = engine.neighbours().near_builds();
   for (auto _ : state) engine.advance_to(engine.step() + slice);
