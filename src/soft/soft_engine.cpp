@@ -126,10 +126,7 @@ void SoftEngine<D>::reorder(std::span<const std::int32_t> from) {
 template <int D>
 void SoftEngine<D>::back_to_ids() {
   if (order_.empty()) return;
-  std::vector<std::int32_t> place(order_.size());
-  for (std::size_t k = 0; k < order_.size(); ++k)
-    place[static_cast<std::size_t>(order_[k])] = static_cast<std::int32_t>(k);
-  reorder(place);
+  reorder(places());
   order_.clear();
   sums_.clear({0, grains_.moving});
   forces(0);
@@ -224,17 +221,29 @@ void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) co
       fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, id_at(grain), what));
 }
 
+/// Where each grain is kept, by its id.
 template <int D>
-GrainsView SoftEngine<D>::grains() const {
-  if (order_.empty()) return view_of(grains_, sums_.force, setup_.domain, time());
+std::vector<std::int32_t> SoftEngine<D>::places() const {
   std::vector<std::int32_t> place(order_.size());
   for (std::size_t k = 0; k < order_.size(); ++k)
     place[static_cast<std::size_t>(order_[k])] = static_cast<std::int32_t>(k);
+  return place;
+}
+
+template <int D>
+const Grains<D>& SoftEngine<D>::state() const {
+  if (order_.empty()) return grains_;
   by_id_ = grains_;
-  by_id_.reorder(place);
+  by_id_.reorder(places());
+  return by_id_;
+}
+
+template <int D>
+GrainsView SoftEngine<D>::grains() const {
+  if (order_.empty()) return view_of(grains_, sums_.force, setup_.domain, time());
   force_by_id_ = sums_.force;
-  for (auto& f : force_by_id_) chute::reorder(f, place);
-  return view_of(by_id_, force_by_id_, setup_.domain, time());
+  for (auto& f : force_by_id_) chute::reorder(f, places());
+  return view_of(state(), force_by_id_, setup_.domain, time());
 }
 
 template <int D>

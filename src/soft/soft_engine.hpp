@@ -14,8 +14,8 @@ namespace chute::soft {
 /// others only cost or save time.
 struct Schedule {
   std::size_t sort_from = 2000;        ///< so many moving grains are kept in an order of places
-  std::int64_t sort_every = 1024;      ///< steps
-  std::size_t grains_per_tile = 4096;  ///< see TimeTiles
+  std::int64_t sort_every = 4096;      ///< steps
+  std::size_t grains_per_tile = 3072;  ///< see TimeTiles
   bool tiles = true;
 };
 
@@ -58,9 +58,9 @@ class SoftEngine final : public Engine {
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
 
-  /// The grains as they are kept: see `id_at`.
-  const Grains<D>& state() const { return grains_; }
-  /// Id of the grain that is kept at this place.
+  /// The grains by their ids; a copy if they are kept in another order, which stays until the next call.
+  const Grains<D>& state() const;
+  /// Id of the grain that is kept at this place of the order.
   std::size_t id_at(std::size_t place) const {
     return place < order_.size() ? static_cast<std::size_t>(order_[place]) : place;
   }
@@ -100,6 +100,7 @@ class SoftEngine final : public Engine {
   void sort();
   void reorder(std::span<const std::int32_t> from);
   void back_to_ids();
+  std::vector<std::int32_t> places() const;
   void check_overlaps() const;
   void find_impacts();
   void remember_touching();

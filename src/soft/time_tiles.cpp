@@ -8,15 +8,6 @@ namespace {
 /// More steps at once save little memory traffic, and need wider tiles.
 constexpr std::int64_t most_steps = 32, least_steps = 4;
 
-/// Hands out 0, 1, … count − 1 to whoever of the team is free.
-template <class Work>
-void share_out(Team& team, std::size_t count, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  team.run([&](std::size_t member) {
-    for (std::size_t k; (k = next.fetch_add(1, std::memory_order_relaxed)) < count;) work(k, member);
-  });
-}
-
 /// What forces see of the grains.
 template <int D, class Each>
 void for_seen(Grains<D>& grains, const Each& each) {
@@ -86,7 +77,8 @@ void TimeTiles<D>::cut(std::size_t grains, std::size_t team) {
   cut_ = true;
   narrowest_ = 0;
   if (strips_.count() == 0) return;
-  for (std::size_t count = std::max(grains / grains_per_tile_, team); count > 0; count = count * 3 / 4) {
+  const std::size_t wanted = (std::max<std::size_t>(1, grains / grains_per_tile_) + team - 1) / team * team;
+  for (std::size_t count = wanted; count > 0; count = count * 3 / 4) {
     cut_into(count);
     if (narrowest_ >= 2 * static_cast<std::size_t>(least_steps)) return;
   }
@@ -109,7 +101,7 @@ void TimeTiles<D>::cut_into(std::size_t count) {
 }
 
 template <int D>
-bool TimeTiles<D>::advance(const StepParts<D>& parts, std::int64_t steps) {
+void TimeTiles<D>::prepare(const StepParts<D>& parts) {
   std::size_t arrays = 0;
   for_state(parts, [&](const Array&) { ++arrays; });
   saved_.resize(arrays);
@@ -119,11 +111,38 @@ bool TimeTiles<D>::advance(const StepParts<D>& parts, std::int64_t steps) {
   right_.resize(tiles_.size());
   scratch_.resize(parts.team.size());
   failed_ = false;
-  share_out(parts.team, tiles_.size(),
-            [&](std::size_t t, std::size_t member) { shrink(parts, t, steps, scratch_[member]); });
-  if (!failed_)
-    share_out(parts.team, tiles_.size(),
-              [&](std::size_t t, std::size_t member) { fill(parts, t, steps, scratch_[member]); });
+}
+
+template <int D>
+bool TimeTiles<D>::advance(const StepParts<D>& parts, std::int64_t steps) {
+  prepare(parts);
+  const std::size_t team = parts.team.size(), tiles = tiles_.size();
+  const auto first_of = [&](std::size_t member) { return tiles * member / team; };
+  next_.resize(team);
+  for (std::size_t m = 0; m < team; ++m) next_[m] = first_of(m);
+  done_.assign(tiles, 0);
+  std::atomic<std::size_t> filled = 0;
+  parts.team.run([&](std::size_t member) {
+    const auto try_to_fill = [&](std::size_t border) {  // by one, when the tiles on both sides are done
+      int both = 2;
+      if (!std::atomic_ref(done_[border]).compare_exchange_strong(both, 3, std::memory_order_acq_rel)) return;
+      ++filled;
+      fill(parts, border, steps, scratch_[member]);
+    };
+    // Tiles of a stretch of its own, gaps as soon as they can be filled, while both sides are in the cache, and
+    // then whatever others have left.
+    for (std::size_t shift = 0; shift < team; ++shift) {
+      const std::size_t whose = (member + shift) % team;
+      for (std::size_t t; (t = std::atomic_ref(next_[whose]).fetch_add(1)) < first_of(whose + 1);) {
+        shrink(parts, t, steps, scratch_[member]);
+        for (const std::size_t border : {t, (t + 1) % tiles})
+          std::atomic_ref(done_[border]).fetch_add(1, std::memory_order_acq_rel);
+        try_to_fill(t);
+      }
+    }
+    while (filled < tiles)
+      for (std::size_t k = 0; k < tiles; ++k) try_to_fill((first_of(member) + k) % tiles);
+  });
   if (failed_) put_back(parts);
   return !failed_;
 }

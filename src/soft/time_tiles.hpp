@@ -88,11 +88,14 @@ class TimeTiles {
   std::vector<std::size_t> first_pair_;  // of each strip, and the end
   std::vector<Tile> tiles_;
   std::vector<History> left_, right_;  // the first and the last strip of each tile's steps
+  std::vector<int> done_;  // how many of the two tiles at a border are; 3: the gap between them is taken
+  std::vector<std::size_t> next_;      // tile for each of the team
   std::vector<Scratch> scratch_;       // for each of the team
   std::vector<Array> saved_;
   std::array<std::vector<int>, D> saved_wraps_;
   std::atomic<bool> failed_ = false;
 
+  void prepare(const StepParts<D>& parts);
   void look_at(const search::PairList& pairs, std::size_t moving);
   void cut(std::size_t grains, std::size_t team);
   void cut_into(std::size_t count);

@@ -87,15 +87,16 @@ void steps(benchmark::State& state, std::int64_t grains, Isa isa, int threads) {
   auto setup = setup_of(scene, domain, isa);
   setup.threads = threads;
   soft::SoftEngine<2> engine(copies(settled(tile), length, count), setup);
-  const std::int64_t slice = std::max<std::int64_t>(250, 300'000 / grains);
+  const std::int64_t slice = std::max<std::int64_t>(1024, 300'000 / grains);
   engine.advance_to(slice);  // the first lists
-  const auto lists = engine.neighbours().near_builds();
+  const auto lists = engine.neighbours().near_builds(), tiled = engine.tiled_steps();
   for (auto _ : state) engine.advance_to(engine.step() + slice);
   const auto done = static_cast<double>(state.iterations() * slice);
   state.counters["grain_steps/s"] =
       benchmark::Counter(done * static_cast<double>(grains), benchmark::Counter::kIsRate);
   state.counters["contacts/grain"] =
       static_cast<double>(engine.contacts().size()) / static_cast<double>(grains);
+  state.counters["tiled"] = static_cast<double>(engine.tiled_steps() - tiled) / done;
   const auto made = std::max<std::int64_t>(1, engine.neighbours().near_builds() - lists);
   state.counters["steps/list"] = done / static_cast<double>(made);
 }
