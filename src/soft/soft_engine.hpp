@@ -15,7 +15,7 @@ namespace chute::soft {
 struct Schedule {
   std::size_t sort_from = 2000;        ///< so many moving grains are kept in an order of places
   std::int64_t sort_every = 4096;      ///< steps
-  std::size_t grains_per_tile = 3072;  ///< see TimeTiles
+  std::size_t grains_per_tile = 4096;  ///< see TimeTiles
   bool tiles = true;
 };
 

@@ -6,7 +6,7 @@ namespace chute::soft {
 namespace {
 
 /// More steps at once save little memory traffic, and need wider tiles.
-constexpr std::int64_t most_steps = 32, least_steps = 4;
+constexpr std::int64_t most_steps = 64, least_steps = 4;
 
 /// What forces see of the grains.
 template <int D, class Each>
@@ -41,7 +41,7 @@ std::int64_t TimeTiles<D>::possible(const StepParts<D>& parts, std::int64_t most
     return parts.list.lasts(parts.grains, parts.time_step) * 15 / 16;
   };
   auto steps = lasts();
-  if (steps < most) {
+  if (steps < most / 2) {
     parts.list.renew(parts.grains, parts.team);
     steps = lasts();
   }
