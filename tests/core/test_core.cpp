@@ -6,6 +6,8 @@
 #include "core/domain.hpp"
 #include "core/engine.hpp"
 #include "core/kernel.hpp"
+#include "core/compress.hpp"
+#include "core/grains.hpp"
 #include "core/random.hpp"
 
 using namespace chute;
@@ -129,4 +131,43 @@ TEST_CASE("grains know their inverse masses, and places count on through periods
   view.wraps[0] = wraps;
   view.period[0] = 10;
   CHECK(view.unwrapped(0, 0) == -29);
+}
+
+TEST_CASE("compress lists the flags that are set, with every instruction set") {
+  Random random(8, Purpose::start);
+  for (const std::size_t count : {0, 1, 7, 8, 9, 64, 1001})
+    for (const double density : {0.0, 0.08, 0.5, 1.0}) {
+      std::vector<std::int64_t> flag(count);
+      std::vector<std::int32_t> expected;
+      for (std::size_t p = 0; p < count; ++p) {
+        flag[p] = random.uniform() < density ? 1 + static_cast<std::int64_t>(p % 2) : 0;
+        if (flag[p] != 0) expected.push_back(100 + static_cast<std::int32_t>(p));
+      }
+      for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+        if (isa > best_isa()) continue;
+        std::vector<std::int32_t> found(count);
+        found.resize(compress(isa, flag.data(), count, 100, found.data()));
+        CHECK(found == expected);
+      }
+    }
+}
+
+TEST_CASE("grains in another order are the same grains") {
+  Grains<2> grains;
+  for (int i = 0; i < 5; ++i) {
+    grains.add({{1.0 * i, 2.0 * i}}, 0.1 * (i + 1), 1 + i, 1 + i, i < 4);
+    grains.velocity[1].back() = 10.0 * i;
+    if (i < 4) grains.wraps[0].back() = i;
+  }
+  const std::vector<std::int32_t> from{2, 0, 3, 1};
+  grains.reorder(from);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const int was = k < 4 ? from[k] : 4;  // fixed grains stay
+    CHECK(grains.position[1][k] == 2.0 * was);
+    CHECK(grains.velocity[1][k] == 10.0 * was);
+    CHECK(grains.radius[k] == 0.1 * (was + 1));
+    CHECK(grains.mass[k] == 1 + was);
+    CHECK(grains.inverse_mass[k] == (k < 4 ? 1.0 / (1 + was) : 0));
+    if (k < 4) CHECK(grains.wraps[0][k] == was);
+  }
 }

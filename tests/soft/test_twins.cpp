@@ -160,3 +160,36 @@ TEST_CASE("a restored engine goes on to the same bytes") {
     CHECK(resumed.energy().residual() == whole.energy().residual());
   }
 }
+
+TEST_CASE("a coarse look finds the contacts that a full look finds, also where it is in doubt") {
+  Random random(6, Purpose::start);
+  Domain<2> domain;
+  domain.length[0] = 4000;
+  Grains<2> grains;
+  for (int k = 0; k < 1000; ++k) {  // pairs that touch or do not touch by very little, in any direction
+    const Vec<2> place{{4.0 * k, random.uniform(-3, 3)}};
+    const double angle = random.uniform(0, 2 * pi), gap = std::pow(10, random.uniform(-15, -2));
+    const double way = 1 + (k % 2 ? gap : -gap);
+    grains.add(place, 0.5, 1, 0.1, true);
+    auto other = place + way * Vec<2>{{std::cos(angle), std::sin(angle)}};
+    if (other[0] < 0) other[0] += 4000;
+    grains.add(other, 0.5, 1, 0.1, true);
+  }
+  for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+    if (isa > best_isa()) continue;
+    search::NeighbourList<2> list(domain, {0.1, 0.3}, search::Method::cells, isa);
+    soft::ContactStages<2> stages(domain, SmallChute::contact(), isa);
+    soft::Contacts<2> coarse, full;
+    const auto near = list.near(grains);
+    REQUIRE(near.coarse != nullptr);
+    stages.evaluate(near, grains, coarse);
+    stages.evaluate({near.pairs}, grains, full);
+    REQUIRE(coarse.count == full.count);
+    CHECK(full.count > 400);
+    CHECK(full.count < 600);
+    for (std::size_t c = 0; c < full.count; ++c) {
+      CHECK(coarse.i[c] == full.i[c]);
+      CHECK(coarse.j[c] == full.j[c]);
+    }
+  }
+}
