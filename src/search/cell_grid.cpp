@@ -82,7 +82,7 @@ struct Layout {
 }  // namespace
 
 template <int D>
-void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs,
+void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairNames& pairs,
                        Team& team) {
   const Layout<D> layout(grains, domain, skin);
   const std::size_t n = grains.size();
@@ -94,17 +94,14 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
 
   // Sort grains by cell: count, then place.
   start_.assign(static_cast<std::size_t>(layout.total()) + 1, 0);
-  cell_of_.resize(n);
   member_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    cell_of_[i] = layout.flat(cell_at(i));
-    ++start_[cell_of_[i] + 1];
+    ++start_[static_cast<std::size_t>(layout.flat(cell_at(i))) + 1];
   }
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
   for (std::size_t i = n; i-- > 0;) {  // backwards through the grains: ids ascend within a cell
-    const auto cell = static_cast<std::size_t>(cell_of_[i]) + 1;
-    member_[static_cast<std::size_t>(--start_[cell])] = {grains.place(i), grains.radius[i],
-                                                         static_cast<std::int32_t>(i)};
+    const auto cell = static_cast<std::size_t>(layout.flat(cell_at(i))) + 1;
+    member_[static_cast<std::size_t>(--start_[cell])] = static_cast<std::int32_t>(i);
   }
   // After the loop start_[c + 1] is where cell c begins; the end of cell c is the begin of c + 1.
   const auto begin_of = [&](int c) { return static_cast<std::size_t>(start_[static_cast<std::size_t>(c) + 1]); };
@@ -114,31 +111,30 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
                : n;
   };
 
-  const auto find_of = [&](std::size_t i, std::vector<std::int32_t>& row, PairList& found) {
+  const auto find_of = [&](std::size_t i, std::vector<std::int32_t>& row, PairNames& found) {
     row.clear();
     const auto home = cell_at(i);
     const auto here = grains.place(i);
     const double own = grains.radius[i] + skin;
     const auto look = [&](int first, int last) {  // through cells that follow on each other
       for (std::size_t m = begin_of(first), end = end_of(last); m < end; ++m) {
-        const Member& other = member_[m];
-        const auto j = static_cast<std::size_t>(other.id);
+        const auto j = static_cast<std::size_t>(member_[m]);
         if (j <= i || (grains.independent && j < grains.moving)) continue;
-        const auto way = domain.way(here, other.place);
-        const double reach = own + other.radius;
-        if (dot(way, way) < reach * reach) row.push_back(other.id);
+        const auto way = domain.way(here, grains.place(j));
+        const double reach = own + grains.radius[j];
+        if (dot(way, way) < reach * reach) row.push_back(member_[m]);
       }
     };
     layout.for_neighbours(domain, home, look);
     // with fewer than three periodic cells a neighbour can appear twice
     std::sort(row.begin(), row.end());
     if (layout.narrow(domain)) row.erase(std::unique(row.begin(), row.end()), row.end());
-    for (const auto j : row) found.add(grains, i, static_cast<std::size_t>(j));
+    for (const auto j : row) found.add(i, static_cast<std::size_t>(j));
   };
   row_.resize(team.size());
   parts_.resize(team.size() - 1);
   team.split(grains.moving, [&](Part range, std::size_t k) {
-    PairList& found = k == 0 ? pairs : parts_[k - 1];
+    PairNames& found = k == 0 ? pairs : parts_[k - 1];
     found.clear();
     found.reserve(grains.moving * (D == 2 ? 4 : 10));  // about what a dense flow has
     for (std::size_t i = range.begin; i < range.end; ++i) find_of(i, row_[k], found);
@@ -147,16 +143,16 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
 }
 
 template <int D>
-void all_pairs(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs) {
+void all_pairs(const Grains<D>& grains, const Domain<D>& domain, double skin, PairNames& pairs) {
   pairs.clear();
   for (std::size_t i = 0; i < grains.moving; ++i)
     for (std::size_t j = i + 1; j < grains.size(); ++j)
-      if (within(grains, domain, i, j, skin)) pairs.add(grains, i, j);
+      if (within(grains, domain, i, j, skin)) pairs.add(i, j);
 }
 
 template class CellGrid<2>;
 template class CellGrid<3>;
-template void all_pairs(const Grains<2>&, const Domain<2>&, double, PairList&);
-template void all_pairs(const Grains<3>&, const Domain<3>&, double, PairList&);
+template void all_pairs(const Grains<2>&, const Domain<2>&, double, PairNames&);
+template void all_pairs(const Grains<3>&, const Domain<3>&, double, PairNames&);
 
 }  // namespace chute::search

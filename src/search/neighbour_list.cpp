@@ -9,35 +9,8 @@
 namespace chute::search {
 namespace {
 
-/// Has any grain moved farther than the limit? A place that is not a number counts as moved.
-template <int D>
-struct MovedKernel {
-  std::array<const double*, D> now, before;
-  Vec<D> length, half;
-  double limit_squared;
-  Part range;
-  std::int64_t* any;
-
-  void operator()() const {
-    const auto r = now, r0 = before;  // copies: the compiler then knows that they do not change in the loop
-    const auto full = length, fold = half;
-    const double limit = limit_squared;
-    const auto [begin, end] = range;
-    std::int64_t found = 0;
-    CHUTE_VECTOR_LOOP
-    for (std::size_t i = begin; i < end; ++i) {
-      double d2 = 0;
-      for (int k = 0; k < D; ++k) {
-        const double d = Domain<D>::nearest_image(r[k][i] - r0[k][i], full[k], fold[k]);
-        d2 += d * d;
-      }
-      found |= !(d2 <= limit);
-    }
-    *any = found;
-  }
-};
-
-/// MovedKernel, and the coarse places of the same grains.
+/// Has any grain moved farther than the limit? A place that is not a number counts as moved. On the way, the
+/// coarse places of the same grains.
 template <int D>
 struct SurveyKernel {
   static constexpr int words = CoarsePlaces<D>::words;
@@ -84,21 +57,6 @@ NeighbourList<D>::NeighbourList(const Domain<D>& domain, Skins skins, Method met
     : domain_(domain), skins_(skins), method_(method), isa_(isa) {}
 
 template <int D>
-bool NeighbourList<D>::moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit,
-                             Team& team) const {
-  std::atomic<std::int64_t> moved = 0;
-  team.split(grains.moving, [&](Part range, std::size_t) {
-    std::int64_t any = 0;
-    MovedKernel<D> kernel{{}, {}, domain_.length, 0.5 * domain_.length, limit * limit, range, &any};
-    for (int k = 0; k < D; ++k) kernel.now[k] = grains.position[k].data(), kernel.before[k] = since[k].data();
-    run_kernel(isa_, kernel);
-    if (any) moved.store(1, std::memory_order_relaxed);
-  });
-  return moved != 0;
-}
-
-/// The same for the near list, on the way to the coarse places of the grains in `range`.
-template <int D>
 bool NeighbourList<D>::survey(const Grains<D>& grains, Part range) {
   std::int64_t any = 0, astray = 0;
   SurveyKernel<D> kernel{{}, {}, domain_.length, 0.5 * domain_.length, skins_.near * skins_.near / 4,
@@ -112,10 +70,10 @@ bool NeighbourList<D>::survey(const Grains<D>& grains, Part range) {
 }
 
 template <int D>
-void NeighbourList<D>::remember(const Grains<D>& grains, std::array<Array, D>& places) const {
+void NeighbourList<D>::remember_places(const Grains<D>& grains) {
   for (int k = 0; k < D; ++k)
-    places[k].assign(grains.position[k].begin(),
-                     grains.position[k].begin() + static_cast<std::ptrdiff_t>(grains.moving));
+    near_places_[k].assign(grains.position[k].begin(),
+                           grains.position[k].begin() + static_cast<std::ptrdiff_t>(grains.moving));
 }
 
 template <int D>
@@ -127,7 +85,7 @@ void NeighbourList<D>::build_far(const Grains<D>& grains, Team& team) {
     grid_.find(grains, domain_, skins_.far, far_, team);
   else
     all_pairs(grains, domain_, skins_.far, far_);
-  remember(grains, far_places_);
+  drift_ = 0;
   ++far_builds_;
 }
 
@@ -135,7 +93,7 @@ template <int D>
 void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
   const auto gather = [&](Part range, PairList& pairs) {
     pairs.clear();
-    pairs.reserve(far_.size() / 2);  // whoever gathers: the parts of a list may grow into each other's share
+    pairs.reserve(far_.size());  // memory that is not touched costs nothing
     for (std::size_t p = range.begin; p < range.end; ++p) {
       const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
       const auto way = domain_.way(grains.place(i), grains.place(j));
@@ -147,7 +105,7 @@ void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
   parts_.resize(team.size() - 1);
   team.split(far_.size(), [&](Part range, std::size_t k) { gather(range, k == 0 ? near_ : parts_[k - 1]); });
   for (const auto& part : parts_) near_.append(part);
-  remember(grains, near_places_);
+  remember_places(grains);
   ++near_builds_;
 }
 
@@ -174,27 +132,39 @@ Candidates<D> NeighbourList<D>::near(const Grains<D>& grains, Team& team) {
 template <int D>
 void NeighbourList<D>::renew(const Grains<D>& grains, Team& team) {
   // A pair closer than the near skin now was, when the far list was made, closer than that plus twice the way
-  // moved.
-  if (!known_ || moved(grains, far_places_, (skins_.far - skins_.near) / 2, team)) build_far(grains, team);
+  // moved since, which is at most the sum of the farthest ways between the near lists.
+  if (known_) drift_ += farthest(grains);
+  if (!known_ || !(drift_ <= (skins_.far - skins_.near) / 2)) build_far(grains, team);
   build_near(grains, team);
   known_ = true;
 }
 
+/// The longest way that a grain has moved since the near list was made; not a number if a place is not.
 template <int D>
-std::int64_t NeighbourList<D>::lasts(const Grains<D>& grains, double time_step) const {
-  double way_squared = 0, speed_squared = 0;
+double NeighbourList<D>::farthest(const Grains<D>& grains) const {
+  double way_squared = 0;
   for (std::size_t i = 0; i < grains.moving; ++i) {
-    double d2 = 0, v2 = 0;
+    double d2 = 0;
     for (int k = 0; k < D; ++k) {
       const double d = Domain<D>::nearest_image(grains.position[k][i] - near_places_[k][i],
                                                 domain_.length[k], 0.5 * domain_.length[k]);
       d2 += d * d;
-      v2 += grains.velocity[k][i] * grains.velocity[k][i];
     }
-    way_squared = std::max(way_squared, d2);
+    if (!(d2 <= way_squared)) way_squared = d2;
+    if (std::isnan(d2)) return d2;
+  }
+  return std::sqrt(way_squared);
+}
+
+template <int D>
+std::int64_t NeighbourList<D>::lasts(const Grains<D>& grains, double time_step) const {
+  double speed_squared = 0;
+  for (std::size_t i = 0; i < grains.moving; ++i) {
+    double v2 = 0;
+    for (int k = 0; k < D; ++k) v2 += grains.velocity[k][i] * grains.velocity[k][i];
     speed_squared = std::max(speed_squared, v2);
   }
-  const double left = skins_.near / 2 - std::sqrt(way_squared), step = std::sqrt(speed_squared) * time_step;
+  const double left = skins_.near / 2 - farthest(grains), step = std::sqrt(speed_squared) * time_step;
   return left > 0 ? static_cast<std::int64_t>(std::min(left / step, 1e9)) : 0;
 }
 

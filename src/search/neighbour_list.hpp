@@ -56,17 +56,19 @@ class NeighbourList {
   Method method_;
   Isa isa_;
   CellGrid<D> grid_;
-  PairList far_, near_;
+  PairNames far_;
+  PairList near_;
   std::vector<PairList> parts_;                    // of the near list, while it is made
-  std::array<Array, D> near_places_, far_places_;  // of the moving grains, when each list was made
+  std::array<Array, D> near_places_;   // of the moving grains, when the near list was made
+  double drift_ = 0;                   // farthest that a grain can have moved since the far list, up to then
   bool known_ = false;
   CoarsePlaces<D> coarse_;
   std::atomic<bool> astray_ = false;  // has a grain ever been too far away for coarse places?
   std::int64_t near_builds_ = 0, far_builds_ = 0;
 
-  bool moved(const Grains<D>& grains, const std::array<Array, D>& since, double limit, Team& team) const;
+  double farthest(const Grains<D>& grains) const;
   void set_up_coarse(const Grains<D>& grains);
-  void remember(const Grains<D>& grains, std::array<Array, D>& places) const;
+  void remember_places(const Grains<D>& grains);
   void build_far(const Grains<D>& grains, Team& team);
   void build_near(const Grains<D>& grains, Team& team);
 };

@@ -8,38 +8,54 @@
 
 namespace chute::search {
 
-/// Pairs of grains that may touch, i < j, ordered by i and then by j. Everything that sums over contacts does
-/// so in this order, so results depend only on who touches whom, not on when or how a list was built: a
-/// resumed run, another skin, or the all-pairs twin give the same bytes. Pairs of two fixed grains are left
-/// out.
-struct PairList {
+/// Pairs of grains, i < j, ordered by i and then by j. Everything that sums over contacts does so in this
+/// order, so results depend only on who touches whom, not on when or how a list was built: a resumed run,
+/// another skin, or the all-pairs twin give the same bytes. Pairs of two fixed grains are left out.
+struct PairNames {
   std::vector<std::int32_t> i, j;
-  Array reach_squared;  ///< (R_i + R_j)²: the pair touches when its distance squared is less
-  Array m_eff;          ///< reduced mass; fixed grains count as infinitely heavy
 
   std::size_t size() const { return i.size(); }
   void clear() {
     i.clear();
     j.clear();
-    reach_squared.clear();
-    m_eff.clear();
   }
   void reserve(std::size_t count) {
     i.reserve(count);
     j.reserve(count);
+  }
+  void append(const PairNames& other) {
+    i.insert(i.end(), other.i.begin(), other.i.end());
+    j.insert(j.end(), other.j.begin(), other.j.end());
+  }
+  void add(std::size_t first, std::size_t second) {
+    i.push_back(static_cast<std::int32_t>(first));
+    j.push_back(static_cast<std::int32_t>(second));
+  }
+};
+
+/// Pairs that may touch, with what a step asks of them.
+struct PairList : PairNames {
+  Array reach_squared;  ///< (R_i + R_j)²: the pair touches when its distance squared is less
+  Array m_eff;          ///< reduced mass; fixed grains count as infinitely heavy
+
+  void clear() {
+    PairNames::clear();
+    reach_squared.clear();
+    m_eff.clear();
+  }
+  void reserve(std::size_t count) {
+    PairNames::reserve(count);
     reach_squared.reserve(count);
     m_eff.reserve(count);
   }
   void append(const PairList& other) {
-    i.insert(i.end(), other.i.begin(), other.i.end());
-    j.insert(j.end(), other.j.begin(), other.j.end());
+    PairNames::append(other);
     reach_squared.insert(reach_squared.end(), other.reach_squared.begin(), other.reach_squared.end());
     m_eff.insert(m_eff.end(), other.m_eff.begin(), other.m_eff.end());
   }
   template <int D>
   void add(const Grains<D>& grains, std::size_t first, std::size_t second) {
-    i.push_back(static_cast<std::int32_t>(first));
-    j.push_back(static_cast<std::int32_t>(second));
+    PairNames::add(first, second);
     const double reach = grains.radius[first] + grains.radius[second];
     reach_squared.push_back(reach * reach);
     m_eff.push_back(1 / (grains.inverse_mass[first] + grains.inverse_mass[second]));
@@ -50,25 +66,18 @@ struct PairList {
 template <int D>
 class CellGrid {
  public:
-  void find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs,
+  void find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairNames& pairs,
             Team& team = Team::alone());
 
  private:
-  /// A grain, copied to where its cell is.
-  struct Member {
-    Vec<D> place;
-    double radius;
-    std::int32_t id;
-  };
   // kept, so that a rebuild allocates nothing new
-  std::vector<std::int32_t> cell_of_, start_;
-  std::vector<Member> member_;
+  std::vector<std::int32_t> start_, member_;
   std::vector<std::vector<std::int32_t>> row_;  // for each of the team
-  std::vector<PairList> parts_;
+  std::vector<PairNames> parts_;
 };
 
 /// The slow exact twin of CellGrid: looks at every pair, O(N²).
 template <int D>
-void all_pairs(const Grains<D>& grains, const Domain<D>& domain, double skin, PairList& pairs);
+void all_pairs(const Grains<D>& grains, const Domain<D>& domain, double skin, PairNames& pairs);
 
 }  // namespace chute::search

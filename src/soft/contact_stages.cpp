@@ -133,10 +133,22 @@ template <int D>
 ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa, SlipRule rule)
     : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
 
-/// Writes the pairs of `range` that touch to `pair`, and tells how many they are; `hit` is for its own use.
+/// Writes the pairs of `range` that touch to `pair`, and tells how many they are. In pieces, whose hits stay in
+/// the nearest cache.
 template <int D>
 std::size_t ContactStages<D>::find(const search::Candidates<D>& candidates, const Grains<D>& grains,
-                                   Part range, std::int64_t* hit, std::int32_t* pair) const {
+                                   Part range, std::int32_t* pair) const {
+  constexpr std::size_t piece = 1024;
+  alignas(64) std::array<std::int64_t, piece> hit;  // as wide as a double: the same vector lanes
+  std::size_t found = 0;
+  for (std::size_t begin = range.begin; begin < range.end; begin += piece)
+    found += find_in(candidates, grains, {begin, std::min(range.end, begin + piece)}, hit.data(), pair + found);
+  return found;
+}
+
+template <int D>
+std::size_t ContactStages<D>::find_in(const search::Candidates<D>& candidates, const Grains<D>& grains,
+                                      Part range, std::int64_t* hit, std::int32_t* pair) const {
   const auto& pairs = candidates.pairs;
   const auto *i = pairs.i.data() + range.begin, *j = pairs.j.data() + range.begin;
   const double* reach_squared = pairs.reach_squared.data() + range.begin;
@@ -204,7 +216,7 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, std::sp
   contacts.deep = 0;
   for (const Part range : pairs) {
     touching.reserve(range.size());
-    const Part found{contacts.count, contacts.count + find(candidates, grains, range, touching.hit.data(),
+    const Part found{contacts.count, contacts.count + find(candidates, grains, range,
                                                            touching.pair.data())};
     contacts.reserve(found.end);
     name(candidates.pairs, touching.pair.data(), found, contacts);
@@ -224,8 +236,7 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
   touching_.reserve(pairs.size());
   found_.resize(team.size());
   team.split(pairs.size(), [&](Part range, std::size_t member) {
-    found_[member] = find(candidates, grains, range, touching_.hit.data() + range.begin,
-                          touching_.pair.data() + range.begin);
+    found_[member] = find(candidates, grains, range, touching_.pair.data() + range.begin);
   });
   contacts.count = std::accumulate(found_.begin(), found_.end(), std::size_t{0});
   contacts.deep = 0;

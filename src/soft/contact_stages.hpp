@@ -22,10 +22,9 @@ class ContactStages {
  public:
   /// Which of the pairs touch, before their grains are named; kept, so that a step allocates nothing.
   struct Touching {
-    std::vector<std::int64_t> hit;  // as wide as a double, to stay in the same vector lanes
     std::vector<std::int32_t> pair;
     void reserve(std::size_t pairs) {
-      if (hit.size() < pairs) hit.resize(pairs), pair.resize(pairs);
+      if (pair.size() < pairs) pair.resize(pairs);
     }
   };
 
@@ -71,7 +70,9 @@ class ContactStages {
   std::vector<std::size_t> found_;  // by each of the team
 
   std::size_t find(const search::Candidates<D>& candidates, const Grains<D>& grains, Part range,
-                   std::int64_t* hit, std::int32_t* pair) const;
+                   std::int32_t* pair) const;
+  std::size_t find_in(const search::Candidates<D>& candidates, const Grains<D>& grains, Part range,
+                      std::int64_t* hit, std::int32_t* pair) const;
   void name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts, const Team& team) const;
   void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
   void normal_forces(Part range, Contacts<D>& contacts, double duration);

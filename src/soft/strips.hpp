@@ -35,11 +35,12 @@ class Strips {
 
     // Narrow slices first, so that the ends of the strips can be moved to the next whole cache line.
     const std::size_t slices = strips * slices_per_strip;
-    std::vector<std::size_t> next(slices + 1, 0), slice(n);
+    std::vector<std::size_t> next(slices + 1, 0);
+    std::vector<std::uint32_t> slice(n);
     for (std::size_t i = 0; i < n; ++i) {
       const double at = std::floor((x[i] - lower) / length * static_cast<double>(slices));
       // written so that a place that is not a number goes to the first slice
-      slice[i] = at > 0 ? static_cast<std::size_t>(std::min(at, static_cast<double>(slices - 1))) : 0;
+      slice[i] = at > 0 ? static_cast<std::uint32_t>(std::min(at, static_cast<double>(slices - 1))) : 0;
       ++next[slice[i] + 1];
     }
     std::partial_sum(next.begin(), next.end(), next.begin());
@@ -47,9 +48,6 @@ class Strips {
     for (std::size_t s = 0; s < strips; ++s) begin_[s] = std::min(n, (next[s * slices_per_strip] + 4) / 8 * 8);
     std::vector<std::int32_t> from(n);
     for (std::size_t i = 0; i < n; ++i) from[next[slice[i]]++] = static_cast<std::int32_t>(i);
-    strip_.resize(n);
-    for (std::size_t s = 0; s < strips; ++s)
-      std::fill(strip_.data() + begin_[s], strip_.data() + begin_[s + 1], static_cast<std::int32_t>(s));
     return from;
   }
 
@@ -57,8 +55,6 @@ class Strips {
   /// Number of grains in the strips before this one.
   std::size_t begin(std::size_t strip) const { return begin_[strip]; }
   Part grains(std::size_t first, std::size_t end) const { return {begin_[first], begin_[end]}; }
-  /// Of a moving grain, in the new order.
-  std::int32_t of(std::size_t grain) const { return strip_[grain]; }
   /// The strip in which a grain lies that has `grains` before it.
   std::size_t at(std::size_t grains) const {
     return static_cast<std::size_t>(std::upper_bound(begin_.begin(), begin_.end() - 1, grains) -
@@ -70,7 +66,6 @@ class Strips {
   static constexpr double usual_width = 5, fewest = 24;  // width in largest radii, grains on average
   static constexpr std::size_t slices_per_strip = 8;
   std::vector<std::size_t> begin_;  // whole cache lines of numbers, but for the end
-  std::vector<std::int32_t> strip_;
 };
 
 }  // namespace chute::soft

@@ -56,17 +56,16 @@ std::int64_t TimeTiles<D>::possible(const StepParts<D>& parts, std::int64_t most
 /// Where each strip's pairs begin, and whether they all join strips next to each other.
 template <int D>
 void TimeTiles<D>::look_at(const search::PairList& pairs, std::size_t moving) {
-  const auto last = static_cast<std::int32_t>(strips_.count()) - 1;
+  const std::size_t last = strips_.count() - 1;
   first_pair_.assign(strips_.count() + 1, pairs.size());
   fits_ = true;
-  std::size_t strip = 0;
+  std::size_t own = 0;  // strip of the pair's first grain
+  first_pair_[0] = 0;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const auto own = strips_.of(static_cast<std::size_t>(pairs.i[p]));
-    while (strip <= static_cast<std::size_t>(own)) first_pair_[strip++] = p;
-    const auto j = static_cast<std::size_t>(pairs.j[p]);
-    if (j >= moving) continue;
-    const auto other = strips_.of(j);
-    fits_ = fits_ && (other - own <= 1 || (own == 0 && other == last));
+    const auto i = static_cast<std::size_t>(pairs.i[p]), j = static_cast<std::size_t>(pairs.j[p]);
+    while (i >= strips_.begin(own + 1)) first_pair_[++own] = p;
+    const bool next = j < strips_.begin(std::min(own + 2, last + 1));
+    fits_ = fits_ && (j >= moving || next || (own == 0 && j >= strips_.begin(last)));
   }
 }
 
@@ -180,6 +179,8 @@ void TimeTiles<D>::fill(const StepParts<D>& parts, std::size_t border, std::int6
     step(parts, slab, scratch);
     exchange();
   }
+  right_[before] = {};  // few are needed at a time; all would be half as much memory as the grains take
+  left_[border] = {};
 }
 
 /// One step of the strips of a slab. Pairs with a strip outside are computed here and there; what they add

@@ -32,6 +32,15 @@ inline std::vector<Pair> listed(const search::PairList& pairs) {
   return all;
 }
 
+/// The same of pairs that only have names.
+template <int D>
+std::vector<Pair> listed(const search::PairNames& pairs, const Grains<D>& grains) {
+  search::PairList full;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    full.add(grains, static_cast<std::size_t>(pairs.i[p]), static_cast<std::size_t>(pairs.j[p]));
+  return listed(full);
+}
+
 /// The truth: pairs whose nearest images, of the eight or 26 around, have a gap of less than `skin`.
 template <int D>
 std::vector<Pair> by_images(const Grains<D>& grains, const Domain<D>& domain, double skin) {

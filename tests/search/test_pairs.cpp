@@ -10,12 +10,12 @@ namespace {
 /// The grid, its slow twin and the truth; the same grid is used again and again, as in a run.
 template <int D>
 std::size_t check(search::CellGrid<D>& grid, const Grains<D>& grains, const Domain<D>& domain, double skin) {
-  search::PairList cells, twin;
+  search::PairNames cells, twin;
   grid.find(grains, domain, skin, cells);
   search::all_pairs(grains, domain, skin, twin);
   const auto truth = by_images(grains, domain, skin);
-  CHECK(listed(twin) == truth);
-  CHECK(listed(cells) == truth);
+  CHECK(listed(twin, grains) == truth);
+  CHECK(listed(cells, grains) == truth);
   return truth.size();
 }
 
@@ -73,17 +73,17 @@ TEST_CASE("pairs touch across a corner of two periods") {
 
 TEST_CASE("bed grains are not paired with each other, and a grain is not paired with itself") {
   search::CellGrid<2> grid;
-  search::PairList pairs;
+  search::PairNames pairs;
   Grains<2> grains;
   grains.add({{0, 0.4}}, 0.5, 1, 1, true);
   for (double x : {0.0, 0.3, 0.6}) grains.add({{x, 0}}, 0.5, 1, 1, false);
   grid.find(grains, {}, 0, pairs);
-  CHECK(listed(pairs) == std::vector<Pair>{{0, 1, 1.0}, {0, 2, 1.0}, {0, 3, 1.0}});
+  CHECK(listed(pairs, grains) == std::vector<Pair>{{0, 1, 1.0}, {0, 2, 1.0}, {0, 3, 1.0}});
 }
 
 TEST_CASE("one grain alone has no pairs") {
   search::CellGrid<3> grid;
-  search::PairList pairs;
+  search::PairNames pairs;
   Grains<3> grains;
   grains.add({{0, 0, 0}}, 0.5, 1, 1, true);
   grid.find(grains, {}, 1, pairs);
