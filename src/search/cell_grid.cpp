@@ -104,7 +104,9 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
     member_[static_cast<std::size_t>(--start_[cell])] = static_cast<std::int32_t>(i);
   }
   // After the loop start_[c + 1] is where cell c begins; the end of cell c is the begin of c + 1.
-  const auto begin_of = [&](int c) { return static_cast<std::size_t>(start_[static_cast<std::size_t>(c) + 1]); };
+  const auto begin_of = [&](int c) {
+    return static_cast<std::size_t>(start_[static_cast<std::size_t>(c) + 1]);
+  };
   const auto end_of = [&](int c) {
     return static_cast<std::size_t>(c) + 2 < start_.size()
                ? static_cast<std::size_t>(start_[static_cast<std::size_t>(c) + 2])

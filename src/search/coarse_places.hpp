@@ -15,8 +15,8 @@ namespace chute::search {
 /// wraps around the period by itself. The period only has to be longer than what the grains of a pair can be
 /// apart: it is about 4 times that, and in a periodic direction a whole part of the domain's length.
 ///
-/// A fraction is wrong by half a `quantum`, a way from one grain to another by at most two: one from the ends,
-/// one from a carry between the two numbers of a word. Whoever decides by it must leave the `margin`.
+/// A fraction is wrong by half a `quantum`, a way from one grain to another by at most two: one from the
+/// ends, one from a carry between the two numbers of a word. Whoever decides by it must leave the `margin`.
 template <int D>
 struct CoarsePlaces {
   static constexpr int words = (D + 1) / 2;
@@ -33,7 +33,8 @@ struct CoarsePlaces {
   void set_up(const Domain<D>& domain, double longest_way) {
     for (int k = 0; k < D; ++k) {
       double period = 4 * longest_way;
-      if (domain.periodic(k)) period = domain.length[k] / std::max(1.0, std::floor(domain.length[k] / period));
+      if (domain.periodic(k))
+        period = domain.length[k] / std::max(1.0, std::floor(domain.length[k] / period));
       lower[k] = domain.lower[k];
       per_length[k] = 0x1p32 / period;
       quantum[k] = period * 0x1p-32;

@@ -59,8 +59,17 @@ NeighbourList<D>::NeighbourList(const Domain<D>& domain, Skins skins, Method met
 template <int D>
 bool NeighbourList<D>::survey(const Grains<D>& grains, Part range) {
   std::int64_t any = 0, astray = 0;
-  SurveyKernel<D> kernel{{}, {}, domain_.length, 0.5 * domain_.length, skins_.near * skins_.near / 4,
-                         coarse_.lower, coarse_.per_length, range, {}, &any, &astray};
+  SurveyKernel<D> kernel{{},
+                         {},
+                         domain_.length,
+                         0.5 * domain_.length,
+                         skins_.near * skins_.near / 4,
+                         coarse_.lower,
+                         coarse_.per_length,
+                         range,
+                         {},
+                         &any,
+                         &astray};
   for (int k = 0; k < D; ++k)
     kernel.now[k] = grains.position[k].data(), kernel.before[k] = near_places_[k].data();
   for (int w = 0; w < CoarsePlaces<D>::words; ++w) kernel.word[w] = coarse_.word[w].data();
@@ -98,8 +107,7 @@ void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
       const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
       const auto way = domain_.way(grains.place(i), grains.place(j));
       const double reach = grains.radius[i] + grains.radius[j];
-      if (dot(way, way) < (reach + skins_.near) * (reach + skins_.near))
-        pairs.add(grains, i, j);
+      if (dot(way, way) < (reach + skins_.near) * (reach + skins_.near)) pairs.add(grains, i, j);
     }
   };
   parts_.resize(team.size() - 1);
@@ -146,8 +154,8 @@ double NeighbourList<D>::farthest(const Grains<D>& grains) const {
   for (std::size_t i = 0; i < grains.moving; ++i) {
     double d2 = 0;
     for (int k = 0; k < D; ++k) {
-      const double d = Domain<D>::nearest_image(grains.position[k][i] - near_places_[k][i],
-                                                domain_.length[k], 0.5 * domain_.length[k]);
+      const double d = Domain<D>::nearest_image(grains.position[k][i] - near_places_[k][i], domain_.length[k],
+                                                0.5 * domain_.length[k]);
       d2 += d * d;
     }
     if (!(d2 <= way_squared)) way_squared = d2;

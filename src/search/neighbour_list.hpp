@@ -34,8 +34,8 @@ class NeighbourList {
   /// Pairs that may touch now. NotANumber if a place is not a number.
   Candidates<D> near(const Grains<D>& grains, Team& team = Team::alone());
 
-  /// For who calls `survey` himself, of every grain after every step, instead of `near`: the pairs hold as long
-  /// as no survey of the grains in `range` says that one has moved too far. It also renews their coarse
+  /// For who calls `survey` himself, of every grain after every step, instead of `near`: the pairs hold as
+  /// long as no survey of the grains in `range` says that one has moved too far. It also renews their coarse
   /// places.
   Candidates<D> latest() const { return {near_, astray_ ? nullptr : &coarse_}; }
   bool survey(const Grains<D>& grains, Part range);
@@ -58,9 +58,9 @@ class NeighbourList {
   CellGrid<D> grid_;
   PairNames far_;
   PairList near_;
-  std::vector<PairList> parts_;                    // of the near list, while it is made
-  std::array<Array, D> near_places_;   // of the moving grains, when the near list was made
-  double drift_ = 0;                   // farthest that a grain can have moved since the far list, up to then
+  std::vector<PairList> parts_;       // of the near list, while it is made
+  std::array<Array, D> near_places_;  // of the moving grains, when the near list was made
+  double drift_ = 0;                  // farthest that a grain can have moved since the far list, up to then
   bool known_ = false;
   CoarsePlaces<D> coarse_;
   std::atomic<bool> astray_ = false;  // has a grain ever been too far away for coarse places?

@@ -133,8 +133,8 @@ template <int D>
 ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::Contact& laws, Isa isa, SlipRule rule)
     : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
 
-/// Writes the pairs of `range` that touch to `pair`, and tells how many they are. In pieces, whose hits stay in
-/// the nearest cache.
+/// Writes the pairs of `range` that touch to `pair`, and tells how many they are. In pieces, whose hits stay
+/// in the nearest cache.
 template <int D>
 std::size_t ContactStages<D>::find(const search::Candidates<D>& candidates, const Grains<D>& grains,
                                    Part range, std::int32_t* pair) const {
@@ -142,7 +142,8 @@ std::size_t ContactStages<D>::find(const search::Candidates<D>& candidates, cons
   alignas(64) std::array<std::int64_t, piece> hit;  // as wide as a double: the same vector lanes
   std::size_t found = 0;
   for (std::size_t begin = range.begin; begin < range.end; begin += piece)
-    found += find_in(candidates, grains, {begin, std::min(range.end, begin + piece)}, hit.data(), pair + found);
+    found +=
+        find_in(candidates, grains, {begin, std::min(range.end, begin + piece)}, hit.data(), pair + found);
   return found;
 }
 
@@ -161,8 +162,8 @@ std::size_t ContactStages<D>::find_in(const search::Candidates<D>& candidates, c
   }
   const auto& coarse = *candidates.coarse;
   std::int64_t doubt = 0;
-  CoarseTouchKernel<D> kernel{{},     coarse.quantum, i,   j, reach_squared, 1e-12, coarse.margin,
-                              count, hit,            &doubt};
+  CoarseTouchKernel<D> kernel{{},    coarse.quantum, i,     j,   reach_squared,
+                              1e-12, coarse.margin,  count, hit, &doubt};
   for (int w = 0; w < coarse.words; ++w) kernel.word[w] = coarse.word[w].data();
   run_kernel(isa_, kernel);
   const std::size_t found = compress(isa_, hit, count, base, pair);
@@ -195,11 +196,11 @@ template <int D>
 void ContactStages<D>::geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const {
   range = whole_vectors(range, contacts.count);
   std::int64_t deep = 0;
-  run_kernel(isa_,
-             GeometryKernel<D>{pointers(grains.position), pointers(grains.velocity), pointers(grains.spin),
-                               grains.radius.data(), contacts.i.data(), contacts.j.data(), domain_.length,
-                               0.5 * domain_.length, range, pointers(contacts.normal), contacts.overlap.data(),
-                               contacts.closing.data(), pointers(contacts.slip), deepest_, &deep});
+  run_kernel(
+      isa_, GeometryKernel<D>{pointers(grains.position), pointers(grains.velocity), pointers(grains.spin),
+                              grains.radius.data(), contacts.i.data(), contacts.j.data(), domain_.length,
+                              0.5 * domain_.length, range, pointers(contacts.normal), contacts.overlap.data(),
+                              contacts.closing.data(), pointers(contacts.slip), deepest_, &deep});
   if (deep) std::atomic_ref(contacts.deep).store(1, std::memory_order_relaxed);
   if (!needs_radius_) return;
   for (std::size_t c = range.begin; c < range.end; ++c) {
@@ -216,8 +217,7 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, std::sp
   contacts.deep = 0;
   for (const Part range : pairs) {
     touching.reserve(range.size());
-    const Part found{contacts.count, contacts.count + find(candidates, grains, range,
-                                                           touching.pair.data())};
+    const Part found{contacts.count, contacts.count + find(candidates, grains, range, touching.pair.data())};
     contacts.reserve(found.end);
     name(candidates.pairs, touching.pair.data(), found, contacts);
     contacts.count = found.end;
@@ -293,10 +293,10 @@ void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double du
         if constexpr (laws::ShearWithMemory<Law>)
           remembering_shear<Law, D>(law, memory_, duration, range, contacts);
         else
-          run_kernel(isa_, ShearKernel<Law, turns<D>>{
-                               law, pointers(slip), contacts.normal_force.data(), contacts.m_eff.data(),
-                               whole_vectors(range, contacts.count), pointers(contacts.shear_force),
-                               contacts.shear_loss.data()});
+          run_kernel(isa_,
+                     ShearKernel<Law, turns<D>>{law, pointers(slip), contacts.normal_force.data(),
+                                                contacts.m_eff.data(), whole_vectors(range, contacts.count),
+                                                pointers(contacts.shear_force), contacts.shear_loss.data()});
       },
       laws_.shear);
 }

@@ -31,12 +31,7 @@ struct Gear5 {
   Weights weight;
 
   Gear5(const Column& of, double dt)
-      : column(of),
-        h(dt),
-        h2(dt * dt / 2),
-        h3(dt * dt * dt / 6),
-        h4(dt * dt * dt * dt / 24),
-        weight(dt) {}
+      : column(of), h(dt), h2(dt * dt / 2), h3(dt * dt * dt / 6), h4(dt * dt * dt * dt / 24), weight(dt) {}
 
   void operator()() const {
     const auto [r, v, a, b, c, force, inverse_inertia, g, lower, upper, range, outside] = column;

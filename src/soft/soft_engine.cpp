@@ -85,8 +85,7 @@ bool SoftEngine<D>::advance_in_tiles(std::int64_t step) {
   const auto& schedule = setup_.schedule;
   const bool pays = team_->size() > 1 || grains_.moving > 2 * schedule.grains_per_tile;
   if (!schedule.tiles || !pays || order_.empty() || !sorts()) return false;
-  const StepParts<D> parts{grains_,     sums_,  list_,           stages_,
-                           integrator_, *team_, setup_.time_step};
+  const StepParts<D> parts{grains_, sums_, list_, stages_, integrator_, *team_, setup_.time_step};
   const std::int64_t unsorted = schedule.sort_every - step_ % schedule.sort_every;
   candidates();  // up to date
   const std::int64_t steps = tiles_->possible(parts, std::min(step - 1 - step_, unsorted));
@@ -217,8 +216,8 @@ void SoftEngine<D>::check_floor() const {
 
 template <int D>
 void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(
-      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, id_at(grain), what));
+  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_,
+                              id_at(grain), what));
 }
 
 /// Where each grain is kept, by its id.
@@ -282,9 +281,10 @@ template <int D>
 template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   auto& g = self.grains_;
-  archive(self.order_, g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(), self.start_place_,
-          self.account_.start, self.account_.shear_loss, self.sums_.normal_loss, self.sums_.shear_loss,
-          self.step_, self.collecting_, self.touched_, self.touches_, self.stages_.memory());
+  archive(self.order_, g.position, g.velocity, g.angle, g.spin, g.wraps, self.integrator_.derivatives(),
+          self.start_place_, self.account_.start, self.account_.shear_loss, self.sums_.normal_loss,
+          self.sums_.shear_loss, self.step_, self.collecting_, self.touched_, self.touches_,
+          self.stages_.memory());
 }
 
 template <int D>
@@ -299,8 +299,8 @@ void SoftEngine<D>::restore(std::istream& in) {
   cereal::PortableBinaryInputArchive archive(in);
   transfer(archive, *this);
   if (!order_.empty())
-    for (auto* a : {&grains_.radius, &grains_.mass, &grains_.inertia, &grains_.inverse_mass,
-                    &grains_.inverse_inertia})
+    for (auto* a :
+         {&grains_.radius, &grains_.mass, &grains_.inertia, &grains_.inverse_mass, &grains_.inverse_inertia})
       chute::reorder(*a, order_);
   list_.forget();
   // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember

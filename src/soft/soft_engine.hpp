@@ -40,8 +40,8 @@ struct SoftSetup {
 /// Time-step driven molecular dynamics of soft grains, thesis 2.1.1. A step:
 /// predict → neighbour list → contacts → forces → account → impacts → correct.
 ///
-/// Inside, many grains are kept in the order of Strips, and take several steps at once (TimeTiles) where nobody
-/// looks. Outside they always have their ids.
+/// Inside, many grains are kept in the order of Strips, and take several steps at once (TimeTiles) where
+/// nobody looks. Outside they always have their ids.
 template <int D>
 class SoftEngine final : public Engine {
  public:

@@ -18,8 +18,8 @@ namespace chute::soft {
 template <int D>
 class Strips {
  public:
-  /// Where each grain should go: place k of the new order is for grain `result[k]` of the present one. Depends
-  /// on nothing but the places and the present order.
+  /// Where each grain should go: place k of the new order is for grain `result[k]` of the present one.
+  /// Depends on nothing but the places and the present order.
   std::vector<std::int32_t> sort(const Grains<D>& grains, const Domain<D>& domain) {
     const auto& x = grains.position[0];
     const std::size_t n = grains.moving;
@@ -45,7 +45,8 @@ class Strips {
     }
     std::partial_sum(next.begin(), next.end(), next.begin());
     begin_.assign(strips + 1, n);
-    for (std::size_t s = 0; s < strips; ++s) begin_[s] = std::min(n, (next[s * slices_per_strip] + 4) / 8 * 8);
+    for (std::size_t s = 0; s < strips; ++s)
+      begin_[s] = std::min(n, (next[s * slices_per_strip] + 4) / 8 * 8);
     std::vector<std::int32_t> from(n);
     for (std::size_t i = 0; i < n; ++i) from[next[slice[i]]++] = static_cast<std::int32_t>(i);
     return from;

@@ -128,8 +128,8 @@ bool TimeTiles<D>::advance(const StepParts<D>& parts, std::int64_t steps) {
       ++filled;
       fill(parts, border, steps, scratch_[member]);
     };
-    // Tiles of a stretch of its own, gaps as soon as they can be filled, while both sides are in the cache, and
-    // then whatever others have left.
+    // Tiles of a stretch of its own, gaps as soon as they can be filled, while both sides are in the cache,
+    // and then whatever others have left.
     for (std::size_t shift = 0; shift < team; ++shift) {
       const std::size_t whose = (member + shift) % team;
       for (std::size_t t; (t = std::atomic_ref(next_[whose]).fetch_add(1)) < first_of(whose + 1);) {
@@ -168,9 +168,8 @@ void TimeTiles<D>::fill(const StepParts<D>& parts, std::size_t border, std::int6
   const std::size_t before = (border + tiles_.size() - 1) % tiles_.size();
   const Tile &low = tiles_[before], &high = tiles_[border];
   for (std::size_t k = 0; k < static_cast<std::size_t>(steps) && !failed_; ++k) {
-    const Slab slab = border == 0
-                          ? Slab{{Part{0, high.begin + k}, Part{low.stop - k, strips_.count()}}, 2}
-                          : Slab{{Part{low.stop - k, high.begin + k}}, 1};
+    const Slab slab = border == 0 ? Slab{{Part{0, high.begin + k}, Part{low.stop - k, strips_.count()}}, 2}
+                                  : Slab{{Part{low.stop - k, high.begin + k}}, 1};
     const auto exchange = [&] {
       swap(parts, low.stop - k - 1, static_cast<std::int64_t>(k), right_[before]);
       swap(parts, high.begin + k, static_cast<std::int64_t>(k), left_[border]);

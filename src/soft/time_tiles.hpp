@@ -24,20 +24,20 @@ struct StepParts {
 };
 
 /// Moves many grains on by several steps at once, part by part, so that a part is read from memory once for
-/// all these steps and a team waits for each other twice instead of several times in each. What is computed is
-/// the same to the last bit as step by step: only the order in which grains and times come by differs.
+/// all these steps and a team waits for each other twice instead of several times in each. What is computed
+/// is the same to the last bit as step by step: only the order in which grains and times come by differs.
 ///
-/// The strips are cut into tiles. What happens in a tile depends on its neighbours only through its edges, and
-/// an edge moves on by one strip per step. So first every tile alone takes K steps of ever fewer strips,
+/// The strips are cut into tiles. What happens in a tile depends on its neighbours only through its edges,
+/// and an edge moves on by one strip per step. So first every tile alone takes K steps of ever fewer strips,
 ///
 ///     time ↑     ▁▁▁▁▁▁        ▁▁▁▁▁▁
 ///          │   ▁▁▁▁▁▁▁▁▁▁    ▁▁▁▁▁▁▁▁▁▁
 ///          │ ▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁
 ///            │    tile    │ │    tile    │
 ///
-/// and then what is left around each border takes its K steps of ever more strips. For that it needs the strip
-/// on either side as it was at each step, of which the tiles have kept a copy. The tiling of stencil codes by
-/// trapezoids, for neighbour lists.
+/// and then what is left around each border takes its K steps of ever more strips. For that it needs the
+/// strip on either side as it was at each step, of which the tiles have kept a copy. The tiling of stencil
+/// codes by trapezoids, for neighbour lists.
 ///
 /// It works while the near list holds and no overlap is too deep. That shows on the way; then everything is
 /// put back as it was, for steps one by one, which know what to do.
@@ -89,8 +89,8 @@ class TimeTiles {
   std::vector<Tile> tiles_;
   std::vector<History> left_, right_;  // the first and the last strip of each tile's steps
   std::vector<int> done_;  // how many of the two tiles at a border are; 3: the gap between them is taken
-  std::vector<std::size_t> next_;      // tile for each of the team
-  std::vector<Scratch> scratch_;       // for each of the team
+  std::vector<std::size_t> next_;  // tile for each of the team
+  std::vector<Scratch> scratch_;   // for each of the team
   std::vector<Array> saved_;
   std::array<std::vector<int>, D> saved_wraps_;
   std::atomic<bool> failed_ = false;

@@ -3,11 +3,11 @@
 #include <random>
 #include <span>
 
+#include "core/compress.hpp"
 #include "core/domain.hpp"
 #include "core/engine.hpp"
-#include "core/kernel.hpp"
-#include "core/compress.hpp"
 #include "core/grains.hpp"
+#include "core/kernel.hpp"
 #include "core/random.hpp"
 
 using namespace chute;

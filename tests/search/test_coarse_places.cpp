@@ -47,7 +47,8 @@ void check(const Domain<D>& domain, double longest) {
     way = (longest * uniform(engine) / norm(way)) * way;
     Vec<D> b = a + way;
     for (int c = 0; c < D; ++c)
-      if (domain.periodic(c)) b[c] -= domain.length[c] * std::floor((b[c] - domain.lower[c]) / domain.length[c]);
+      if (domain.periodic(c))
+        b[c] -= domain.length[c] * std::floor((b[c] - domain.lower[c]) / domain.length[c]);
     const auto exact = domain.way(a, b);
     worst = std::max(worst, std::abs(coarse_way_squared(coarse, a, b) - dot(exact, exact)));
   }

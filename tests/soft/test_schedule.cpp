@@ -101,8 +101,8 @@ TEST_CASE("tiles of any width, at any cut of the way, give the same bytes") {
   }
 }
 
-// Grains that fall from rest, a thousand times heavier than usual, move much farther than their speed told when
-// the list was guessed to last: what was done must be undone.
+// Grains that fall from rest, a thousand times heavier than usual, move much farther than their speed told
+// when the list was guessed to last: what was done must be undone.
 TEST_CASE("a list that breaks while several steps are taken is no harm") {
   const auto chute = long_chute();
   auto grains = chute.grains();
