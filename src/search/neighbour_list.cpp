@@ -102,7 +102,7 @@ template <int D>
 void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
   const auto gather = [&](Part range, PairList& pairs) {
     pairs.clear();
-    pairs.reserve(far_.size());  // memory that is not touched costs nothing
+    pairs.reserve(far_.size() / 2);  // whoever gathers: the parts of a list may grow into each other's share
     for (std::size_t p = range.begin; p < range.end; ++p) {
       const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
       const auto way = domain_.way(grains.place(i), grains.place(j));
