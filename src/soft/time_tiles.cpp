@@ -1,6 +1,7 @@
 #include "soft/time_tiles.hpp"
 
 #include <algorithm>
+#include <thread>
 
 namespace chute::soft {
 namespace {
@@ -139,8 +140,10 @@ bool TimeTiles<D>::advance(const StepParts<D>& parts, std::int64_t steps) {
         try_to_fill(t);
       }
     }
-    while (filled < tiles)
+    while (filled < tiles) {
       for (std::size_t k = 0; k < tiles; ++k) try_to_fill((first_of(member) + k) % tiles);
+      std::this_thread::yield();  // whoever works on the tiles that are missing may need this processor
+    }
   });
   if (failed_) put_back(parts);
   return !failed_;

@@ -24,7 +24,7 @@ struct StepParts {
 };
 
 /// Moves many grains on by several steps at once, part by part, so that a part is read from memory once for
-/// all these steps and a team waits for each other twice instead of several times in each. What is computed
+/// all these steps and a team waits for each other once instead of several times in each. What is computed
 /// is the same to the last bit as step by step: only the order in which grains and times come by differs.
 ///
 /// The strips are cut into tiles. What happens in a tile depends on its neighbours only through its edges,
