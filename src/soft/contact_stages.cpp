@@ -155,7 +155,7 @@ std::size_t ContactStages<D>::find_in(const search::Candidates<D>& candidates, c
   const double* reach_squared = pairs.reach_squared.data() + range.begin;
   const auto base = static_cast<std::int32_t>(range.begin);
   const std::size_t count = range.size();
-  if (!candidates.coarse) {
+  if (!candidates.coarse || isa_ == Isa::baseline) {  // two lanes: the words cost more than they save
     run_kernel(isa_, TouchKernel<D>{pointers(grains.position), i, j, reach_squared, domain_.length,
                                     0.5 * domain_.length, count, hit});
     return compress(isa_, hit, count, base, pair);
