@@ -55,7 +55,8 @@ Context::~Context() { OSMesaDestroyContext(inside_->context); }
 void Context::make_current() {
   auto& in = *inside_;
   if (!OSMesaMakeCurrent(in.context, in.buffer.data(), GL_UNSIGNED_BYTE, in.width, in.height))
-    throw WorkError(fmt::format("cannot draw: OSMesa refuses a picture of {} x {} pixels", in.width, in.height));
+    throw WorkError(
+        fmt::format("cannot draw: OSMesa refuses a picture of {} x {} pixels", in.width, in.height));
 }
 
 std::string Context::version() {

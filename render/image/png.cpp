@@ -134,7 +134,8 @@ Image decode_png(std::string_view bytes, const std::string& name) {
   return with_reader(bytes, name, [](Reader& reader) {
     const auto pixels = std::uint64_t{png_get_image_width(reader.png, reader.info)} *
                         png_get_image_height(reader.png, reader.info);
-    if (pixels > most_pixels) throw PngFault{fmt::format("{} pixels are more than this program takes", pixels)};
+    if (pixels > most_pixels)
+      throw PngFault{fmt::format("{} pixels are more than this program takes", pixels)};
     png_set_expand(reader.png);  // palettes, fewer than 8 bits, transparency as a colour
     png_set_scale_16(reader.png);
     png_set_gray_to_rgb(reader.png);

@@ -37,7 +37,7 @@ struct Series {
   Kind kind = Kind::both;
   std::vector<double> x, y;
   std::vector<double> x_err, y_err;  ///< empty or as long as x; NaN where not known
-  bool faint = false;                 ///< its lines are only hinted at
+  bool faint = false;                ///< its lines are only hinted at
   // Automatic where absent: counted through the orders of style.hpp
   std::optional<int> color, marker, dash;
 };

@@ -31,7 +31,8 @@ int say(Status status, const char* what) {
 /// CLI11 would only say that a verb is required.
 void check_verb(CLI::App& app, const std::string& word) {
   std::vector<std::string> verbs;
-  for (const auto* verb : app.get_subcommands([](CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+  for (const auto* verb : app.get_subcommands([](CLI::App*) { return true; }))
+    verbs.push_back(verb->get_name());
   if (word.starts_with('-') || std::ranges::count(verbs, word) > 0) return;
   const auto hint = chute::nearest(word, verbs);
   throw chute::InputError(fmt::format("{}: no such verb{}; chute --help lists them", word,

@@ -21,7 +21,8 @@ void check(const std::string& file, const std::vector<std::string>& settings) {
     const auto places = sweep::grid(spec.axes);
     for (const auto& place : places) scene::make_start(base.scene(place.set));
     resolved = sweep::to_toml(base, spec), facts = run::facts(base.scene(places.front().set));
-    facts.push_back({"places", static_cast<double>(places.size()), "", "places of the grid; the rest is of the first"});
+    facts.push_back(
+        {"places", static_cast<double>(places.size()), "", "places of the grid; the rest is of the first"});
   } else {
     const auto scene = scene::read_scene(file, settings);
     scene::make_start(scene);  // says if the grains do not fit

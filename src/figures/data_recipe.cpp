@@ -64,7 +64,8 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   const int sources = (recipe.scene.has_value() || recipe.compute.has_value()) + recipe.table.has_value() +
                       !recipe.experiments.empty();
   a.check(sources <= 1, "scene",
-          "give one of scene (simulate; perhaps with compute, a built-in computation, beside it), experiment, table "
+          "give one of scene (simulate; perhaps with compute, a built-in computation, beside it), "
+          "experiment, table "
           "(a CSV file), or curves with runs");
   if (!recipe.scene && (recipe.compute || recipe.table || !recipe.experiments.empty())) return;
   a.value("set", recipe.set);

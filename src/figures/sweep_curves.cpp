@@ -45,8 +45,8 @@ class Sweeps {
     if (is_boundary(curve)) {
       const auto& spec = *curve.boundary;
       const bool ab = curve.column == Column::AB;
-      const auto found = sweep::boundaries_of(base, spec, ab ? sweep::Wanted::AB : sweep::Wanted::both, setting_.seeds,
-                                              store_, progress);
+      const auto found = sweep::boundaries_of(base, spec, ab ? sweep::Wanted::AB : sweep::Wanted::both,
+                                              setting_.seeds, store_, progress);
       if (const auto& angle = ab ? found.AB : found.BC) point.y = as_angle(spec.axis, *angle);
       return;
     }
@@ -70,13 +70,15 @@ class Sweeps {
 };
 
 /// v_0 of (4.20) for the named series of a panel. WorkError if fewer than three of its points lie in B.
-SquareRootFit offset_fit(const std::vector<Point>& points, const std::string& panel, const std::string& series) {
+SquareRootFit offset_fit(const std::vector<Point>& points, const std::string& panel,
+                         const std::string& series) {
   std::vector<double> s, v;
   for (const auto& p : points)
     if (p.curve->series == series && p.curve->panel == panel && p.in_B && p.y)
       s.push_back(p.x), v.push_back(p.y->mean);
   if (s.size() < 3)
-    throw WorkError(fmt::format("series {}: {} points in phase B are too few for the offset v_0", series, s.size()));
+    throw WorkError(
+        fmt::format("series {}: {} points in phase B are too few for the offset v_0", series, s.size()));
   return fit_square_root(s, v);
 }
 
@@ -95,17 +97,21 @@ void describe(TomlReader& a, SweepCurve& curve) {
   a.value("offset_of", curve.offset_of);
   a.check(is_boundary(curve) == curve.boundary.has_value(), "boundary",
           "AB and BC, and only they, say along which parameter: boundary = { axis = …, tolerance = … }");
-  a.check(!curve.boundary || curve.boundary->axis.key == "incline.sin" || curve.boundary->axis.key == "incline.angle",
+  a.check(!curve.boundary || curve.boundary->axis.key == "incline.sin" ||
+              curve.boundary->axis.key == "incline.angle",
           "boundary", "figures show boundaries along incline.sin or incline.angle");
   a.check(!curve.above_offset || curve.column == Column::v_x, "above_offset", "needs column = \"v_x\"");
 }
 
-FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetting& setting, const Report& progress) {
+FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetting& setting,
+                         const Report& progress) {
   std::vector<Point> points;
   for (const auto& curve : curves)
     for (const double x : curve.x.points(setting.quick)) {
       points.push_back({&curve, x, {}});
-      setting.base.with(curve.set).with({curve.x.setting(x)}).scene({});  // refused before anything is simulated
+      setting.base.with(curve.set)
+          .with({curve.x.setting(x)})
+          .scene({});  // refused before anything is simulated
     }
   const Sweeps sweeps(setting);
   side_by_side(points.size(), setting.jobs, progress,
@@ -117,9 +123,9 @@ FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetti
     if (curve.above_offset) {
       const auto fit = offset_fit(points, curve.panel, curve.offset_of.value_or(curve.series));
       v_0 = fit.v_0;
-      table.comments.push_back(
-          fmt::format("{} {}: v_0 = {:.5g} from a fit of (4.20) to {} in phase B, f = {:.4g}, sin theta_AB = {:.4g}",
-                      curve.panel, curve.series, v_0, curve.offset_of.value_or(curve.series), fit.f, fit.s_AB));
+      table.comments.push_back(fmt::format(
+          "{} {}: v_0 = {:.5g} from a fit of (4.20) to {} in phase B, f = {:.4g}, sin theta_AB = {:.4g}",
+          curve.panel, curve.series, v_0, curve.offset_of.value_or(curve.series), fit.f, fit.s_AB));
     }
     for (const auto& p : points) {
       if (p.curve != &curve || !p.y) continue;

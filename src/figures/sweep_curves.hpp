@@ -22,11 +22,11 @@ struct SweepCurve {
     AB,             ///< phase boundary as an angle, rad
     BC
   } column = Column::v_x;
-  std::vector<double> velocities;                  ///< launches, slowest first: the others tell where B ends
-  double alike = 0.05;                             ///< how far their medians may lie apart in B
-  std::optional<sweep::BoundarySpec> boundary;     ///< AB, BC: along what, of incline.sin or incline.angle
-  bool above_offset = false;                       ///< v_x: (v_x − v_0)², with v_0 from a fit of (4.20) in phase B
-  std::optional<std::string> offset_of;            ///< v_0 of that series instead of the own one's
+  std::vector<double> velocities;               ///< launches, slowest first: the others tell where B ends
+  double alike = 0.05;                          ///< how far their medians may lie apart in B
+  std::optional<sweep::BoundarySpec> boundary;  ///< AB, BC: along what, of incline.sin or incline.angle
+  bool above_offset = false;             ///< v_x: (v_x − v_0)², with v_0 from a fit of (4.20) in phase B
+  std::optional<std::string> offset_of;  ///< v_0 of that series instead of the own one's
 };
 void describe(TomlReader& a, SweepCurve& curve);
 
@@ -39,8 +39,9 @@ struct SweepSetting {
   std::filesystem::path points;  ///< folder of the finished points
 };
 
-/// Rows of all curves, and comments about them. A point has a mean velocity, and a row, if most of the slowest starts
-/// share it: they lie within a tenth of their median, and neither stopped nor left for good.
-FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetting& setting, const Report& progress);
+/// Rows of all curves, and comments about them. A point has a mean velocity, and a row, if most of the
+/// slowest starts share it: they lie within a tenth of their median, and neither stopped nor left for good.
+FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetting& setting,
+                         const Report& progress);
 
 }  // namespace chute::figures

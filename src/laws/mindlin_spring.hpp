@@ -16,9 +16,9 @@ namespace chute::laws {
 /// where ξ grows at constant ζ that rises by ½ ζ² dk, which no force has done. Without the cap (3.25) impacts
 /// gain up to 19 % under an elastic normal force; with it none does, but a contact that is loaded again and
 /// again while it slips to and fro is a machine. What grows when a contact is loaded further is its area, and
-/// the rings that are added are not strained yet: F_s stays, dF_s = −k dζ. So the spring shrinks, ζ ∝ 1/k, and
-/// stores less, F_s²/2k. When the contact is unloaded, strained rings let go: ζ stays, F_s ∝ k, and it stores
-/// less again. With `shrink`, then,
+/// the rings that are added are not strained yet: F_s stays, dF_s = −k dζ. So the spring shrinks, ζ ∝ 1/k,
+/// and stores less, F_s²/2k. When the contact is unloaded, strained rings let go: ζ stays, F_s ∝ k, and it
+/// stores less again. With `shrink`, then,
 ///
 ///     dF_s = −k v_s dt             while dξ/dt ≥ 0,
 ///     dF_s = −k v_s dt + F_s dk/k  while dξ/dt < 0,

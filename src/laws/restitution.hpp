@@ -12,8 +12,9 @@ struct ConstantRestitution {
 };
 
 /// e_n(v) = 1 − a (v/v_0)^δ, thesis 2.1.3, kept at 0 where it would fall below. δ = 1/5 is what viscoelastic
-/// spheres do (3.6) as e_n → 1; slow collisions are then nearly elastic, which avoids inelastic collapse where nothing
-/// pushes the grains together (under gravity bounces still add up to a finite time: see tests/event).
+/// spheres do (3.6) as e_n → 1; slow collisions are then nearly elastic, which avoids inelastic collapse
+/// where nothing pushes the grains together (under gravity bounces still add up to a finite time: see
+/// tests/event).
 struct PowerLawRestitution {
   double loss = 0;        ///< a = 1 − e_n at v_0
   double velocity = 1;    ///< v_0 > 0

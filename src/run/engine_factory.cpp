@@ -30,8 +30,7 @@ event::HardContact hard_contact(const scene::Scene& scene) {
         laws::PowerLawRestitution{1 - e_n, *engine.restitution_velocity, engine.restitution_exponent};
   auto shear = scene.contact.laws(scene.reference_pair()).shear;
   const double* mu = laws::friction(shear);
-  contact.tangential = {engine.friction.value_or(mu ? *mu : 0),
-                        engine.tangential_restitution};
+  contact.tangential = {engine.friction.value_or(mu ? *mu : 0), engine.tangential_restitution};
   return contact;
 }
 

@@ -131,7 +131,8 @@ class Run {
     record.time = engine().time();
     record.end = state;
     record.why = why;
-    const auto flow = observers_.saw_something() ? std::optional(observers_.flow(engine().grains())) : std::nullopt;
+    const auto flow =
+        observers_.saw_something() ? std::optional(observers_.flow(engine().grains())) : std::nullopt;
     write_record(directory_.file("run.json"), record, flow);
   }
 

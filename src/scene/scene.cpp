@@ -90,8 +90,9 @@ static void describe(Archive& a, GrainsSpec& grains) {
     a.check(grains.diameter.has_value() != grains.size_ratio.has_value(),
             grains.diameter ? "size_ratio" : "diameter",
             "give either diameter = { mean = …, std = … } or size_ratio = R/r");
-    a.check(grains.count == 1 || grains.independent || grains.start.lattice == Start::Lattice::square, "start",
-            "lattice = \"none\" starts a single grain, or independent ones; use lattice = \"square\" for more");
+    a.check(
+        grains.count == 1 || grains.independent || grains.start.lattice == Start::Lattice::square, "start",
+        "lattice = \"none\" starts a single grain, or independent ones; use lattice = \"square\" for more");
   }
 }
 

@@ -58,8 +58,9 @@ struct GrainsSpec {
   std::optional<Diameter> diameter;
   std::optional<double> size_ratio;  ///< Φ = R/r instead of a diameter
   double density = 0;  ///< grains are spheres, in 2D too; default 6/π in reduced units (m = d³)
-  bool independent = false;  ///< grains do not feel each other: `count` starts of a single grain, side by side
-  bool rotation = true;      ///< false: grains never spin, as if friction acted at their centres (thesis 4.2.4.2)
+  bool independent =
+      false;             ///< grains do not feel each other: `count` starts of a single grain, side by side
+  bool rotation = true;  ///< false: grains never spin, as if friction acted at their centres (thesis 4.2.4.2)
   Start start;
 };
 
@@ -136,7 +137,7 @@ struct Scene {
   OutputSpec output;
 
   bool interacting() const { return grains.count > 1 && !grains.independent; }  ///< moving grains may collide
-  double mean_diameter() const;  ///< of the moving grains
+  double mean_diameter() const;                                                 ///< of the moving grains
   double mean_mass() const;
   /// Reduced mass of the contact that sets the time step: two mean grains, or the only grain with the bed.
   double reference_mass() const { return reference_pair().m_eff; }

@@ -55,7 +55,8 @@ Tally tally(std::span<const measure::Flow> starts) {
   made.median = median_of(std::move(moving));
   for (const auto& start : starts) {
     const bool settled = start.verdict == Verdict::steady || start.verdict == Verdict::unsettled;
-    made.together += settled && std::abs(start.v_x.mean - made.median.mean) <= 0.1 * std::abs(made.median.mean);
+    made.together +=
+        settled && std::abs(start.v_x.mean - made.median.mean) <= 0.1 * std::abs(made.median.mean);
   }
   return made;
 }
@@ -94,9 +95,11 @@ Boundaries find_boundaries(std::span<const double> values, double tolerance, Wan
   for (std::size_t i = 0; i < values.size() && !complete(); ++i) {
     const auto now = phase_at(values[i]);
     if (before == Phase::A && now != Phase::A && !found.AB)
-      found.AB = bisect(values[i - 1], values[i], tolerance, [&](double x) { return phase_at(x) != Phase::A; });
+      found.AB =
+          bisect(values[i - 1], values[i], tolerance, [&](double x) { return phase_at(x) != Phase::A; });
     if (wanted == Wanted::both && before && before != Phase::C && now == Phase::C)
-      found.BC = bisect(values[i - 1], values[i], tolerance, [&](double x) { return phase_at(x) == Phase::C; });
+      found.BC =
+          bisect(values[i - 1], values[i], tolerance, [&](double x) { return phase_at(x) == Phase::C; });
     before = now;
   }
   return found;

@@ -49,7 +49,8 @@ PointStore::PointStore(std::filesystem::path folder) : folder_(std::move(folder)
 std::filesystem::path PointStore::file_of(const std::string& scene) const {
   // Two sums: with one of 32 bits, two of ten thousand points would share a file once in a hundred sweeps.
   const auto* bytes = reinterpret_cast<const Bytef*>(scene.data());
-  return folder_ / fmt::format("{:08x}{:08x}.json", crc32_z(0, bytes, scene.size()), adler32_z(1, bytes, scene.size()));
+  return folder_ /
+         fmt::format("{:08x}{:08x}.json", crc32_z(0, bytes, scene.size()), adler32_z(1, bytes, scene.size()));
 }
 
 std::optional<Outcome> PointStore::find(const scene::Scene& scene) const {

@@ -6,8 +6,8 @@
 
 namespace chute::sweep {
 
-/// Finished points of sweeps, one small file each, so that an interrupted sweep goes on, and several processes can
-/// share one folder. A point is known by its complete scene and the build that made it.
+/// Finished points of sweeps, one small file each, so that an interrupted sweep goes on, and several
+/// processes can share one folder. A point is known by its complete scene and the build that made it.
 class PointStore {
  public:
   /// WorkError if the folder cannot be made.

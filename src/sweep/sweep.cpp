@@ -23,7 +23,8 @@ class Sweep {
         options_(options),
         spec_(read_sweep(base)),
         places_(grid(spec_.axes)),
-        first_(base.scene(places_.front().set)) {  // and so a wrong scene is refused before anything is written
+        first_(
+            base.scene(places_.front().set)) {  // and so a wrong scene is refused before anything is written
     for (const auto& place : places_) base_.scene(place.set);
     claim_folder();
     store_.emplace(options.directory / "points");
@@ -57,7 +58,8 @@ class Sweep {
     return base_.with(places_[place].set).scene({fmt::format("seed={}", seed + 1)});
   }
   Boundaries boundaries_at(const Place& place, const Report& progress) const {
-    return boundaries_of(base_.with(place.set), *spec_.boundary, Wanted::both, spec_.seeds, *store_, progress);
+    return boundaries_of(base_.with(place.set), *spec_.boundary, Wanted::both, spec_.seeds, *store_,
+                         progress);
   }
   fs::path file(const char* name) const { return options_.directory / name; }
 
@@ -67,12 +69,14 @@ class Sweep {
     std::error_code error;
     if (fs::exists(mark)) {
       if (read_file(mark) != text)
-        throw InputError(fmt::format("{}: holds another sweep; choose another folder", options_.directory.string()));
+        throw InputError(
+            fmt::format("{}: holds another sweep; choose another folder", options_.directory.string()));
       if (!options_.resume && options_.shards == 1)
         throw InputError(fmt::format("{}: holds this sweep already; --resume goes on with it",
                                      options_.directory.string()));
     } else if (fs::exists(options_.directory) && !fs::is_empty(options_.directory, error)) {
-      throw InputError(fmt::format("{}: holds other things; choose another folder", options_.directory.string()));
+      throw InputError(
+          fmt::format("{}: holds other things; choose another folder", options_.directory.string()));
     }
     fs::create_directories(options_.directory, error);
     if (error) throw WorkError(options_.directory.string() + ": cannot be made: " + error.message());
@@ -80,9 +84,9 @@ class Sweep {
   }
 
   std::vector<std::string> comments(std::string what) const {
-    return {std::move(what),
-            fmt::format("{}; units: {}; seeds 1 to {}; chute {} ({})", first_.title,
-                        first_.units == scene::Units::si ? "SI" : "reduced", spec_.seeds, run::version, run::commit)};
+    return {std::move(what), fmt::format("{}; units: {}; seeds 1 to {}; chute {} ({})", first_.title,
+                                         first_.units == scene::Units::si ? "SI" : "reduced", spec_.seeds,
+                                         run::version, run::commit)};
   }
   std::vector<std::string_view> columns(std::initializer_list<std::string_view> measured) const {
     std::vector<std::string_view> all;
@@ -98,12 +102,13 @@ class Sweep {
 
   /// False if some point is not there yet: another shard's.
   bool write_tables() const {
-    io::Csv table(comments("one row per place of the grid: starts by verdict, and means over the steady ones with "
-                           "their standard errors; v_x_median is over all that still move"),
-                  columns({"starts", "stopped", "steady", "accelerating", "runaway", "unsettled", "v_x", "v_x_err",
-                           "v_x_median", "v_x_median_err", "omega", "omega_err", "kinetic", "kinetic_err"}));
-    auto each_columns = columns({"seed", "start", "from", "v_x", "v_x_err", "omega", "omega_err", "kinetic",
-                                 "kinetic_err"});
+    io::Csv table(
+        comments("one row per place of the grid: starts by verdict, and means over the steady ones with "
+                 "their standard errors; v_x_median is over all that still move"),
+        columns({"starts", "stopped", "steady", "accelerating", "runaway", "unsettled", "v_x", "v_x_err",
+                 "v_x_median", "v_x_median_err", "omega", "omega_err", "kinetic", "kinetic_err"}));
+    auto each_columns =
+        columns({"seed", "start", "from", "v_x", "v_x_err", "omega", "omega_err", "kinetic", "kinetic_err"});
     each_columns.insert(each_columns.begin(), "verdict");
     io::Csv each(comments("one row per start: what became of it, and means from then on"), each_columns);
     for (std::size_t p = 0; p < places_.size(); ++p) {
@@ -115,15 +120,16 @@ class Sweep {
           const auto& f = outcome->starts[k];
           starts.push_back(f);
           each.row({measure::name(f.verdict)},
-                   cells(places_[p], {double(s + 1), double(k), f.from, f.v_x.mean, f.v_x.error,
-                                      f.omega.mean, f.omega.error, f.kinetic.mean, f.kinetic.error}));
+                   cells(places_[p], {double(s + 1), double(k), f.from, f.v_x.mean, f.v_x.error, f.omega.mean,
+                                      f.omega.error, f.kinetic.mean, f.kinetic.error}));
         }
       }
       const auto t = tally(starts);
       const auto n = [&](Verdict v) { return static_cast<double>(t.count(v)); };
-      table.row(cells(places_[p], {double(t.starts), n(Verdict::stopped), n(Verdict::steady), n(Verdict::accelerating),
-                                   n(Verdict::runaway), n(Verdict::unsettled), t.v_x.mean, t.v_x.error, t.median.mean, t.median.error,
-                                   t.omega.mean, t.omega.error, t.kinetic.mean, t.kinetic.error}));
+      table.row(cells(places_[p],
+                      {double(t.starts), n(Verdict::stopped), n(Verdict::steady), n(Verdict::accelerating),
+                       n(Verdict::runaway), n(Verdict::unsettled), t.v_x.mean, t.v_x.error, t.median.mean,
+                       t.median.error, t.omega.mean, t.omega.error, t.kinetic.mean, t.kinetic.error}));
     }
     write_atomically(file("starts.csv"), each.text());
     write_atomically(file("sweep.csv"), table.text());
@@ -132,10 +138,11 @@ class Sweep {
 
   /// Boundaries that are all in the store are found again from it without simulating.
   bool write_boundaries() const {
-    io::Csv table(comments(fmt::format("phase boundaries along {}: A stops, B is steady, C is neither; errors are half "
-                                       "of the bracket; empty: not within the range",
-                                       spec_.boundary->axis.key)),
-                  columns({"AB", "AB_err", "BC", "BC_err"}));
+    io::Csv table(
+        comments(fmt::format("phase boundaries along {}: A stops, B is steady, C is neither; errors are half "
+                             "of the bracket; empty: not within the range",
+                             spec_.boundary->axis.key)),
+        columns({"AB", "AB_err", "BC", "BC_err"}));
     const auto cell = [](const std::optional<measure::Estimate>& e, bool error) -> io::Csv::Cell {
       if (!e) return {};
       return error ? *e->error : e->mean;

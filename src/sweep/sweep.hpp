@@ -14,10 +14,10 @@ struct SweepOptions {
   Report progress;
 };
 
-/// Does the sweep that a scene file describes in [sweep], or a shard of it. Leaves in the folder `sweep.toml`, the
-/// finished points, and once all are there: `sweep.csv` (a row per place of the grid) and `starts.csv` (a row per
-/// start), or `boundaries.csv`. Tells whether all are there. InputError if the folder holds something else, or the
-/// same sweep without `resume` (shards share their folder).
+/// Does the sweep that a scene file describes in [sweep], or a shard of it. Leaves in the folder
+/// `sweep.toml`, the finished points, and once all are there: `sweep.csv` (a row per place of the grid) and
+/// `starts.csv` (a row per start), or `boundaries.csv`. Tells whether all are there. InputError if the folder
+/// holds something else, or the same sweep without `resume` (shards share their folder).
 bool run_sweep(const Base& base, const SweepOptions& options);
 
 }  // namespace chute::sweep

@@ -29,7 +29,8 @@ bool is_sweep(const Base& base) { return read_table(base).contains("sweep"); }
 SweepSpec read_sweep(const Base& base) {
   const auto table = read_table(base);
   if (!table.contains("sweep"))
-    throw InputError(base.file.string() + ": has no [sweep], which says what to change; a single run is: chute run");
+    throw InputError(base.file.string() +
+                     ": has no [sweep], which says what to change; a single run is: chute run");
   TomlReader reader(table, base.file.string());
   SweepSpec spec;
   Section section{spec};

@@ -24,11 +24,11 @@ struct Axis {
 void describe(TomlReader& a, Axis& axis);
 void describe(TomlWriter& a, Axis& axis);
 
-/// Which angles of the incline bound the phases: A, where grains stop; B, where they reach a steady velocity; C, where
-/// they do not (thesis 4.1).
+/// Which angles of the incline bound the phases: A, where grains stop; B, where they reach a steady velocity;
+/// C, where they do not (thesis 4.1).
 struct BoundarySpec {
-  Axis axis;                       ///< the parameter that is bisected: its range; `count` values are looked at first
-  double tolerance = 0;            ///< boundaries are found to plus or minus half of this
+  Axis axis;             ///< the parameter that is bisected: its range; `count` values are looked at first
+  double tolerance = 0;  ///< boundaries are found to plus or minus half of this
   std::vector<double> velocities;  ///< grains.start.velocity, slowest first; B needs them to end alike
   double alike = 0.05;             ///< relative difference of median velocities that counts as alike
 };

@@ -10,7 +10,9 @@ using measure::Verdict;
 
 namespace {
 
-measure::Flow flow(Verdict verdict, double v_x) { return {verdict, 1, {v_x, 0.01}, {2 * v_x, {}}, {v_x * v_x, {}}}; }
+measure::Flow flow(Verdict verdict, double v_x) {
+  return {verdict, 1, {v_x, 0.01}, {2 * v_x, {}}, {v_x * v_x, {}}};
+}
 
 Tally launch(std::size_t stopped, std::size_t steady, std::size_t runaway, double v_x) {
   std::vector<measure::Flow> flows;
@@ -32,7 +34,7 @@ TEST_CASE("a tally counts verdicts, and averages over the steady starts") {
   CHECK(t.v_x.mean == 2);
   CHECK(*t.v_x.error == Approx(1.0));  // √(2/1/2)
   CHECK(t.omega.mean == 4);
-  CHECK(t.median.mean == Approx(2.5));  // of 1, 2, 3, 50
+  CHECK(t.median.mean == Approx(2.5));                          // of 1, 2, 3, 50
   CHECK(*t.median.error == Approx(1.2533 * 1.4826 * 1.0 / 2));  // deviations 0.5, 0.5, 1.5, 47.5
 
   const auto one = tally(std::vector{flow(Verdict::steady, 1)});
@@ -84,7 +86,8 @@ TEST_CASE("boundaries that the range does not hold are not made up") {
     CHECK(!found.BC);
   }
   // no B between: both boundaries are the same place
-  const auto direct = find_boundaries(values, 0.01, Wanted::both, [](double x) { return x < 0.3 ? Phase::A : Phase::C; });
+  const auto direct =
+      find_boundaries(values, 0.01, Wanted::both, [](double x) { return x < 0.3 ? Phase::A : Phase::C; });
   CHECK(direct.AB->mean == Approx(0.3).margin(0.005));
   CHECK(direct.BC->mean == direct.AB->mean);
 }

@@ -3,10 +3,10 @@
 
 #include "common/error.hpp"
 #include "folder.hpp"
-#include "scene/start.hpp"
 #include "run/engine_factory.hpp"
-#include "run/run.hpp"
 #include "run/flow.hpp"
+#include "run/run.hpp"
+#include "scene/start.hpp"
 #include "sweep/sweep.hpp"
 
 using namespace chute;
@@ -22,12 +22,14 @@ const std::vector<std::string> small{"grains.count=3", "run.duration=2", "contac
 
 Base base() {
   auto set = small;
-  set.push_back("sweep.axis=[{key=\"incline.sin\",values=[0.0,0.06]},{key=\"grains.size_ratio\",values=[2.25,3]}]");
+  set.push_back(
+      "sweep.axis=[{key=\"incline.sin\",values=[0.0,0.06]},{key=\"grains.size_ratio\",values=[2.25,3]}]");
   set.push_back("sweep.seeds=2");
   return {ball, set};
 }
 
-bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, int shards = 1, bool resume = false) {
+bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, int shards = 1,
+        bool resume = false) {
   SweepOptions options{folder, jobs, shard, shards, resume, [](double) { return true; }};
   return run_sweep(what, options);
 }
@@ -35,7 +37,8 @@ bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, i
 }  // namespace
 
 TEST_CASE("independent grains move as each would alone, to the last bit") {
-  auto scene = scene::read_scene(ball, {"sweep=", "grains.count=5", "run.duration=0.5", "grains.start.spread=0.1"});
+  auto scene =
+      scene::read_scene(ball, {"sweep=", "grains.count=5", "run.duration=0.5", "grains.start.spread=0.1"});
   const auto together = run::make_engine(scene);
   const auto start = scene::make_start(scene);
   together.engine->advance_to(20000);
@@ -59,7 +62,8 @@ TEST_CASE("independent grains move as each would alone, to the last bit") {
 }
 
 TEST_CASE("grains that may not rotate never spin, and feel friction all the same") {
-  const auto scene = scene::read_scene(ball, {"sweep=", "grains.count=2", "grains.rotation=false", "run.duration=1"});
+  const auto scene =
+      scene::read_scene(ball, {"sweep=", "grains.count=2", "grains.rotation=false", "run.duration=1"});
   const auto made = run::make_engine(scene);
   made.engine->advance_to(5000);
   for (std::size_t i = 0; i < 2; ++i) CHECK(made.engine->grains().spin[0][i] == 0);
@@ -68,7 +72,8 @@ TEST_CASE("grains that may not rotate never spin, and feel friction all the same
 
 TEST_CASE("a sweep of one start says what a run of it says") {
   const Folder folder;
-  const std::vector<std::string> one{"grains.independent=", "grains.count=1", "run.duration=8", "incline.sin=0.06"};
+  const std::vector<std::string> one{"grains.independent=", "grains.count=1", "run.duration=8",
+                                     "incline.sin=0.06"};
   auto set = one;
   set.insert(set.end(), {"sweep=", "seed=1"});
   const auto scene = scene::read_scene(ball, set);
@@ -137,9 +142,9 @@ TEST_CASE("the lower boundary of a stiff inelastic ball is that of the corrected
   // e_n = 0.1 and strong friction are near the theory's e_n = 0 without slip: sin θ_AB = 0.02287 for Φ = 2.25
   const Folder folder;
   const Base stiff{CHUTE_SOURCE_DIR "/scenes/boundaries-ball.toml",
-                   {"contact.normal.restitution=0.1", "contact.normal.stiffness=2e7", "contact.tangential.friction=0.5",
-                    "contact.tangential.viscosity=1000", "grains.count=6", "run.duration=12",
-                    "sweep.axis=[{key=\"grains.size_ratio\",values=[2.25]}]",
+                   {"contact.normal.restitution=0.1", "contact.normal.stiffness=2e7",
+                    "contact.tangential.friction=0.5", "contact.tangential.viscosity=1000", "grains.count=6",
+                    "run.duration=12", "sweep.axis=[{key=\"grains.size_ratio\",values=[2.25]}]",
                     "sweep.boundary={axis={key=\"incline.sin\",from=0.02,to=0.026,count=2},tolerance=0.0002,"
                     "velocities=[0.2]}"}};
   CHECK(go(stiff, folder / "a", 2));
