@@ -10,7 +10,6 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
-#include "event/event_figures.hpp"
 #include "experiments/computed_figures.hpp"
 #include "figures/simulate.hpp"
 #include "io/csv.hpp"
@@ -64,7 +63,7 @@ using Computation = std::function<figures::FigureTable(const figures::FigureCont
 const Computation& find_computation(const std::string& name, const fs::path& recipe) {
   std::vector<std::string> known;
   for (const auto* list :
-       {&experiments::computed_figures(), &theory::theory_figures(), &event::event_figures()}) {
+       {&experiments::computed_figures(), &theory::theory_figures()}) {
     if (const auto found = list->find(name); found != list->end()) return found->second;
     for (const auto& [id, computation] : *list) known.push_back(id);
   }

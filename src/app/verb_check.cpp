@@ -4,7 +4,7 @@
 #include "app/verbs.hpp"
 #include "experiments/experiment.hpp"
 #include "run/facts.hpp"
-#include "scene/start.hpp"
+#include "run/session.hpp"
 #include "sweep/sweep_file.hpp"
 
 namespace chute::app {
@@ -12,20 +12,20 @@ namespace {
 
 void check(const std::string& file, const std::vector<std::string>& settings) {
   std::string resolved;
-  std::vector<run::Fact> facts;
+  std::vector<Fact> facts;
   if (experiments::is_experiment(file)) {
     const auto experiment = experiments::read_experiment(file, settings);
     resolved = to_toml(experiment), facts = experiments::facts(experiment);
   } else if (const sweep::Base base{file, settings}; sweep::is_sweep(base)) {
     const auto spec = sweep::read_sweep(base);
     const auto places = sweep::grid(spec.axes);
-    for (const auto& place : places) scene::make_start(base.scene(place.set));
+    for (const auto& place : places) run::Session(base.scene(place.set), 1);
     resolved = sweep::to_toml(base, spec), facts = run::facts(base.scene(places.front().set));
     facts.push_back(
         {"places", static_cast<double>(places.size()), "", "places of the grid; the rest is of the first"});
   } else {
     const auto scene = scene::read_scene(file, settings);
-    scene::make_start(scene);  // says if the grains do not fit
+    run::Session(scene, 1);  // what a run would refuse, it refuses here
     resolved = to_toml(scene), facts = run::facts(scene);
   }
   fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, resolved);

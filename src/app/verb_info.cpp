@@ -60,7 +60,7 @@ void show_flow(const fs::path& path) {
   } catch (const InputError&) {
     return;  // a run that has not written any series yet
   }
-  const auto text = [](const measure::Estimate& e) {
+  const auto text = [](const Estimate& e) {
     return e.error ? fmt::format("{:.6g} ± {:.2g}", e.mean, *e.error) : fmt::format("{:.6g}", e.mean);
   };
   fmt::print("the flow is {}; from t = {:.6g} on: v_x = {}, omega = {}\n", measure::name(flow.verdict),

@@ -57,7 +57,7 @@ void run(const RunArguments& arguments) {
   if (!arguments.quiet)
     fmt::print(stderr, "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n",
                result.steps, duration_text(result.seconds),
-               static_cast<double>(result.steps * scene.grains.count) / result.seconds / 1e6,
+               static_cast<double>(result.steps) * static_cast<double>(result.grains) / result.seconds / 1e6,
                options.directory.string());
 }
 

@@ -23,7 +23,9 @@ inline constexpr Field velocity{"velocity", "v", "m/s", "\\sqrt{gd}", false};
 inline constexpr Field angular_velocity{"angular_velocity", "\\omega", "rad/s", "\\sqrt{g/d}", true};
 inline constexpr Field angle{"angle", "\\phi", "rad", "rad",
                              false};  ///< turned since the start; draws the spin mark
+inline constexpr Field orientation{"orientation", "q", "", "", false};  ///< 3D, instead: quaternion w x y z
 inline constexpr Field force{"force", "F", "N", "mg", false};
+inline constexpr Field material{"material", "material", "", "", false};  ///< species
 
 // Impacts: one point each in impacts.vtp, where the surfaces met
 inline constexpr Field time{"time", "t", "s", "\\sqrt{d/g}", false};
@@ -39,9 +41,27 @@ inline constexpr Field rolling{"rolling", "rolling", "", "", false};  ///< 1: ro
 inline constexpr Field bead{"bead", "bead", "", "", false};           ///< id of the grain that was hit
 inline constexpr Field grain{"grain", "grain", "", "", false};        ///< id of the grain that hit
 
-inline constexpr std::array grain_fields{id, type, radius, mass, velocity, angular_velocity, angle, force};
+inline constexpr std::array grain_fields{id,    type,        radius, mass,    velocity, angular_velocity,
+                                         angle, orientation, force,  material};
+
+// Contacts: one line each in contacts/NNNNNN.vtp, between the centres of a and b
+inline constexpr Field contact_a{"a", "a", "", "", false};  ///< id of a moving grain
+inline constexpr Field contact_b{"b", "b", "", "", false};  ///< id of the other; wall k is −1 − k
+inline constexpr Field point{"point", "r", "m", "d", true};
+inline constexpr Field normal{"normal", "n", "", "", true};    ///< from a to b
+inline constexpr Field branch{"branch", "l", "m", "d", true};  ///< from a's centre to b's
+inline constexpr Field overlap{"overlap", "\\xi", "m", "d", false};
+inline constexpr Field normal_force{"normal_force", "F_n", "N", "mg", false};
+inline constexpr Field shear_force{"shear_force", "F_s", "N", "mg", true};
+inline constexpr Field state{"state", "state", "", "", false};  ///< 0 unknown, 1 sticks, 2 slides
+inline constexpr std::array contact_fields{contact_a, contact_b, point,        normal,      branch,
+                                           overlap,   force,     normal_force, shear_force, state};
+
 inline constexpr std::array impact_fields{time,   gamma,        phi,     v_n,  v_t,
                                           flight, gamma_before, rolling, bead, grain};
+
+// Walls: one polygon (2D: line) each in walls.vtp
+inline constexpr Field wall{"wall", "wall", "", "", false};  ///< its number
 
 // Field data of every VTK file
 inline constexpr std::string_view time_value = "TimeValue";  ///< ParaView's own name

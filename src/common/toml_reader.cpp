@@ -153,7 +153,7 @@ void TomlReader::know(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
 }
 
-void TomlReader::value(std::string_view key, double& target, Range range) {
+void TomlReader::value(std::string_view key, double& target, Range range, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
@@ -164,7 +164,7 @@ void TomlReader::value(std::string_view key, double& target, Range range) {
 }
 
 void TomlReader::number_or_word(std::string_view key, std::optional<double>& target, std::string_view word,
-                                Range range) {
+                                Range range, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
@@ -174,7 +174,7 @@ void TomlReader::number_or_word(std::string_view key, std::optional<double>& tar
   target.reset();
 }
 
-void TomlReader::value(std::string_view key, std::int64_t& target, Range range) {
+void TomlReader::value(std::string_view key, std::int64_t& target, Range range, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
@@ -185,7 +185,7 @@ void TomlReader::value(std::string_view key, std::int64_t& target, Range range) 
   target = x;
 }
 
-void TomlReader::value(std::string_view key, bool& target) {
+void TomlReader::value(std::string_view key, bool& target, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
@@ -193,7 +193,7 @@ void TomlReader::value(std::string_view key, bool& target) {
   target = *node->value<bool>();
 }
 
-void TomlReader::value(std::string_view key, std::string& target) {
+void TomlReader::value(std::string_view key, std::string& target, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
@@ -201,7 +201,7 @@ void TomlReader::value(std::string_view key, std::string& target) {
   target = *node->value<std::string>();
 }
 
-void TomlReader::value(std::string_view key, std::vector<double>& target, Range range) {
+void TomlReader::value(std::string_view key, std::vector<double>& target, Range range, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
@@ -217,7 +217,7 @@ void TomlReader::value(std::string_view key, std::vector<double>& target, Range 
   }
 }
 
-void TomlReader::value(std::string_view key, std::vector<std::string>& target) {
+void TomlReader::value(std::string_view key, std::vector<std::string>& target, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
@@ -296,16 +296,16 @@ std::string toml_list(const std::vector<T>& values) {
 void TomlWriter::line(std::string_view key, const std::string& value) {
   lines_ += fmt::format("{} = {}\n", key, value);
 }
-void TomlWriter::value(std::string_view key, double value, Range) { line(key, toml_text(value)); }
-void TomlWriter::value(std::string_view key, std::int64_t value, Range) {
+void TomlWriter::value(std::string_view key, double value, Range, Text) { line(key, toml_text(value)); }
+void TomlWriter::value(std::string_view key, std::int64_t value, Range, Text) {
   line(key, fmt::format("{}", value));
 }
-void TomlWriter::value(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
-void TomlWriter::value(std::string_view key, const std::string& value) { line(key, toml_text(value)); }
-void TomlWriter::value(std::string_view key, const std::vector<double>& values, Range) {
+void TomlWriter::value(std::string_view key, bool value, Text) { line(key, value ? "true" : "false"); }
+void TomlWriter::value(std::string_view key, const std::string& value, Text) { line(key, toml_text(value)); }
+void TomlWriter::value(std::string_view key, const std::vector<double>& values, Range, Text) {
   line(key, toml_list(values));
 }
-void TomlWriter::value(std::string_view key, const std::vector<std::string>& values) {
+void TomlWriter::value(std::string_view key, const std::vector<std::string>& values, Text) {
   line(key, toml_list(values));
 }
 

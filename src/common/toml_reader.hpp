@@ -21,9 +21,18 @@
 ///       a.value("count", bed.count, at_least(1));        // keeps the default that `bed` holds
 ///     }
 ///
-/// and that one list reads it (TomlReader), writes it back complete (TomlWriter), and knows which keys exist,
-/// so that a slip of the pen is answered with the file, the line and the nearest key.
+/// and that one list reads it (TomlReader), writes it back complete (TomlWriter), tells which keys there are and what
+/// they mean (KeyLister in common/keys.hpp), and knows which keys exist, so that a slip of the pen is answered with the
+/// file, the line and the nearest key. The last argument of value, required and choice may be a text that explains the
+/// key to users.
 namespace chute {
+
+/// What a key means, for users.
+struct Text {
+  const char* words = "";
+  Text() = default;
+  Text(const char* w) : words(w) {}
+};
 
 /// The known word closest to `word` if it looks like a slip of it, else empty.
 std::string nearest(std::string_view word, std::span<const std::string> known);
@@ -45,15 +54,23 @@ class TomlReader {
 
   bool has(std::string_view key) const { return table_->contains(key); }
 
-  void value(std::string_view key, double& target, Range range = any_number);
-  void value(std::string_view key, std::int64_t& target, Range range = any_number);
-  void value(std::string_view key, bool& target);
-  void value(std::string_view key, std::string& target);
-  void value(std::string_view key, std::vector<double>& target, Range range = any_number);
-  void value(std::string_view key, std::vector<std::string>& target);
+  void value(std::string_view key, double& target, Range range = any_number, Text = {});
+  void value(std::string_view key, std::int64_t& target, Range range = any_number, Text = {});
+  void value(std::string_view key, bool& target, Text = {});
+  void value(std::string_view key, std::string& target, Text = {});
+  void value(std::string_view key, std::vector<double>& target, Range range = any_number, Text = {});
+  void value(std::string_view key, std::vector<std::string>& target, Text = {});
+  /// Numbers without a range may have a text right away.
+  template <class T>
+  void value(std::string_view key, T& target, const char* text) {
+    value(key, target, any_number, Text(text));
+  }
+  void value(std::string_view key, bool& target, const char*) { value(key, target); }
+  void value(std::string_view key, std::string& target, const char*) { value(key, target); }
+  void value(std::string_view key, std::vector<std::string>& target, const char*) { value(key, target); }
 
   template <class T>
-  void value(std::string_view key, std::optional<T>& target, Range range = any_number) {
+  void value(std::string_view key, std::optional<T>& target, Range range = any_number, Text = {}) {
     know(key);
     if (!has(key)) return;
     T read{};
@@ -67,7 +84,9 @@ class TomlReader {
 
   /// A number, or the given word, which leaves `target` empty.
   void number_or_word(std::string_view key, std::optional<double>& target, std::string_view word,
-                      Range range = any_number);
+                      Range range = any_number, Text = {});
+  /// A key that others use, and that is allowed here without a meaning.
+  void ignored(std::string_view key) { know(key); }
 
   template <class T, class... Rule>
   void required(std::string_view key, T& target, Rule... rule) {
@@ -79,9 +98,11 @@ class TomlReader {
   /// One word out of `words`, stored as an enum whose values count from 0 in the same order.
   template <class Enum>
   requires std::is_enum_v<Enum>
-  void choice(std::string_view key, Enum& target, std::span<const std::string_view> words) {
+  void choice(std::string_view key, Enum& target, std::span<const std::string_view> words, Text = {}) {
     target = static_cast<Enum>(choose(key, static_cast<int>(target), words));
   }
+  /// One word out of `words`, as its number; `current` if the key is absent.
+  int choose(std::string_view key, int current, std::span<const std::string_view> words);
 
   /// A sub-table; kept as it is if absent.
   template <class T>
@@ -142,7 +163,6 @@ class TomlReader {
   TomlReader enter(std::string_view key) const;
   TomlReader enter(std::string_view key, std::size_t index) const;
   std::size_t count(std::string_view key) const;
-  int choose(std::string_view key, int current, std::span<const std::string_view> words);
   std::string path(std::string_view key) const;
   std::string where(const toml::node* node) const;
 };
@@ -153,26 +173,31 @@ class TomlWriter {
  public:
   static constexpr bool reading = false;
 
-  void value(std::string_view key, double value, Range = any_number);
-  void value(std::string_view key, std::int64_t value, Range = any_number);
-  void value(std::string_view key, bool value);
-  void value(std::string_view key, const std::string& value);
-  void value(std::string_view key, const std::vector<double>& values, Range = any_number);
-  void value(std::string_view key, const std::vector<std::string>& values);
+  void value(std::string_view key, double value, Range = any_number, Text = {});
+  void value(std::string_view key, std::int64_t value, Range = any_number, Text = {});
+  void value(std::string_view key, bool value, Text = {});
+  void value(std::string_view key, const std::string& value, Text = {});
+  void value(std::string_view key, const std::vector<double>& values, Range = any_number, Text = {});
+  void value(std::string_view key, const std::vector<std::string>& values, Text = {});
+  template <class T>
+  void value(std::string_view key, const T& v, const char*) {
+    value(key, v);
+  }
   template <class T, class... Rule>
   void value(std::string_view key, const std::optional<T>& optional, Rule... rule) {
     if (optional) value(key, *optional, rule...);
   }
   void number_or_word(std::string_view key, const std::optional<double>& optional, std::string_view word,
-                      Range = any_number) {
+                      Range = any_number, Text = {}) {
     optional ? value(key, *optional) : value(key, std::string(word));
   }
+  void ignored(std::string_view) {}
   template <class T, class... Rule>
   void required(std::string_view key, const T& v, Rule... rule) {
     value(key, v, rule...);
   }
   template <class Enum>
-  void choice(std::string_view key, Enum& target, std::span<const std::string_view> words) {
+  void choice(std::string_view key, Enum& target, std::span<const std::string_view> words, Text = {}) {
     value(key, std::string(words[static_cast<std::size_t>(target)]));
   }
   template <class T>

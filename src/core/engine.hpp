@@ -1,8 +1,13 @@
 #pragma once
 #include <cstdint>
 #include <iosfwd>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "core/contact.hpp"
+#include "core/flush_subnormals.hpp"
 #include "core/grains.hpp"
 #include "core/impact.hpp"
 
@@ -39,20 +44,17 @@ struct EnergyAccount {
   }
 };
 
-/// A contact at one instant.
-struct ContactRecord {
-  std::int64_t i, j;
-  double overlap, normal_force, shear_force;
-};
-
-/// Anything that moves grains through time.
+/// Anything that moves grains.
 class Engine {
  public:
   virtual ~Engine() = default;
 
   /// Moves on to the given number of steps since the start. WorkError if the run leaves physics (NaN, a grain
   /// lost, too deep an overlap): it says which grain and when.
-  virtual void advance_to(std::int64_t step) = 0;
+  void advance_to(std::int64_t step) {
+    const FlushSubnormals while_stepping;
+    advance(step);
+  }
 
   virtual std::int64_t step() const = 0;
   virtual double time_step() const = 0;
@@ -60,15 +62,26 @@ class Engine {
 
   virtual GrainsView grains() const = 0;
   virtual EnergyAccount energy() const = 0;
-  virtual std::vector<ContactRecord> contacts() const = 0;
+  /// What touches now. Of hard grains those that touch for a while, with their mean forces.
+  virtual std::vector<Contact> contacts() const = 0;
 
-  /// Collecting impacts costs a little; it is off until asked for. Taking them empties the engine's list.
-  virtual void collect_impacts(bool on) = 0;
-  virtual std::vector<Impact> take_impacts() = 0;
+  /// Collecting costs a little; it is off until asked for. Taking empties the engine's list.
+  virtual void collect_impacts(bool) {}
+  virtual std::vector<Impact> take_impacts() { return {}; }
+  /// Of hard grains: every collision, in order of time, as stresses and networks need them.
+  virtual void collect_collisions(bool) {}
+  virtual std::vector<Collision> take_collisions() { return {}; }
+
+  /// Numbers of its own that the method tells with every row of the series (iterations, acceptance …): always the
+  /// same names.
+  virtual std::vector<std::pair<std::string, double>> tells() const { return {}; }
 
   /// The complete state, such that a restored engine goes on to the same bytes.
   virtual void save(std::ostream& out) const = 0;
   virtual void restore(std::istream& in) = 0;
+
+ private:
+  virtual void advance(std::int64_t step) = 0;
 };
 
 }  // namespace chute

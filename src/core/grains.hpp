@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <new>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "common/fields.hpp"
 #include "core/domain.hpp"
+#include "core/orientation.hpp"
 #include "core/vec.hpp"
 
 namespace chute {
@@ -26,16 +29,28 @@ struct CacheAligned {
 /// One number per grain.
 using Array = std::vector<double, CacheAligned<double>>;
 
-/// Components of a turn: one about the plane's normal in 2D, three in 3D.
-template <int D>
-inline constexpr int turns = D == 2 ? 1 : 3;
-
 /// Element k becomes what element from[k] was, for all k that `from` has; the others stay.
 template <class Values>
 void reorder(Values& values, std::span<const std::int32_t> from) {
   const Values old(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(from.size()));
   for (std::size_t k = 0; k < from.size(); ++k) values[k] = old[static_cast<std::size_t>(from[k])];
 }
+
+/// What the numbers of a field mean, which decides how files hold them.
+enum class FieldKind {
+  scalar,
+  vector,      ///< D components; files have three
+  turn,        ///< about the plane's normal in 2D, which is the third component in files
+  orientation  ///< an angle in 2D, a quaternion in 3D
+};
+
+/// What one field of the grains is.
+struct GrainField {
+  const fields::Field* file;  ///< its name in files, with labels and units; null: files do without
+  FieldKind kind;
+  bool moving_only;  ///< has no numbers for fixed grains
+  bool changes;      ///< in the course of a run: checkpoints keep it; the others follow from the scene
+};
 
 /// The state of all grains, one array per field. Moving grains come first, [0, moving); fixed ones (the bed)
 /// follow. A grain's index is its id in every file. 2D spins count anticlockwise (x downhill, y up from the
@@ -46,55 +61,98 @@ struct Grains {
   /// Moving grains do not feel each other: many runs of one grain on the same bed, side by side.
   bool independent = false;
   std::array<Array, D> position, velocity;
-  std::array<Array, turns<D>> angle,
-      spin;  ///< 3D: `angle` is the time integral of the spin, component by component
+  std::array<Array, turns<D>> spin;
+  std::array<Array, orientation_numbers<D>> orientation;
   Array radius, mass, inertia;
   Array inverse_mass, inverse_inertia;    ///< 0 for fixed grains
+  std::vector<int> material;              ///< species, as the scene numbers them
   std::array<std::vector<int>, D> wraps;  ///< times each moving grain went once around a periodic direction
+
+  /// The fields, declared once: visit(GrainField, columns) for each, where columns is a span of arrays. Whatever has
+  /// to go over all fields (orders, checkpoints, snapshots, files) does it by this list.
+  template <class Self, class Visit>
+  static void for_fields(Self& g, const Visit& visit) {
+    const auto each = [&](const GrainField& field, auto& columns) {
+      if constexpr (requires { columns[0][0]; })
+        visit(field, std::span(columns));
+      else
+        visit(field, std::span(&columns, 1));
+    };
+    using Kind = FieldKind;
+    each({nullptr, Kind::vector, false, true}, g.position);  // files have points
+    each({&fields::velocity, Kind::vector, false, true}, g.velocity);
+    each({&fields::angular_velocity, Kind::turn, false, true}, g.spin);
+    each({D == 2 ? &fields::angle : &fields::orientation, Kind::orientation, false, true}, g.orientation);
+    each({&fields::radius, Kind::scalar, false, false}, g.radius);
+    each({&fields::mass, Kind::scalar, false, false}, g.mass);
+    each({nullptr, Kind::scalar, false, false}, g.inertia);
+    each({nullptr, Kind::scalar, false, false}, g.inverse_mass);
+    each({nullptr, Kind::scalar, false, false}, g.inverse_inertia);
+    each({&fields::material, Kind::scalar, false, false}, g.material);
+    each({nullptr, Kind::vector, true, true}, g.wraps);
+  }
+  /// visit(GrainField, array) for each single array of all fields.
+  template <class Self, class Visit>
+  static void for_columns(Self& g, const Visit& visit) {
+    for_fields(g, [&](const GrainField& field, auto columns) {
+      for (auto& column : columns) visit(field, column);
+    });
+  }
 
   std::size_t size() const { return radius.size(); }
 
   Vec<D> place(std::size_t i) const { return gather(position, i); }
   Vec<D> speed(std::size_t i) const { return gather(velocity, i); }
+  Vec<turns<D>> turning(std::size_t i) const { return gather(spin, i); }
+  Orientation<D> attitude(std::size_t i) const { return gather(orientation, i); }
 
   void reserve(std::size_t count) {
-    for (int k = 0; k < D; ++k)
-      position[k].reserve(count), velocity[k].reserve(count), wraps[k].reserve(count);
-    for (int k = 0; k < turns<D>; ++k) angle[k].reserve(count), spin[k].reserve(count);
-    for (auto* a : {&radius, &mass, &inertia, &inverse_mass, &inverse_inertia}) a->reserve(count);
+    for_columns(*this, [&](const GrainField&, auto& column) { column.reserve(count); });
   }
 
   /// Adds a grain at rest; all moving grains must be added before the first fixed one.
   void add(const Vec<D>& r, double grain_radius, double grain_mass, double grain_inertia, bool moves) {
-    for (int k = 0; k < D; ++k) {
-      position[k].push_back(r[k]);
-      velocity[k].push_back(0);
-      if (moves) wraps[k].push_back(0);
-    }
-    for (int k = 0; k < turns<D>; ++k) angle[k].push_back(0), spin[k].push_back(0);
-    radius.push_back(grain_radius);
-    mass.push_back(grain_mass);
-    inertia.push_back(grain_inertia);
-    inverse_mass.push_back(moves ? 1 / grain_mass : 0);
-    inverse_inertia.push_back(moves ? 1 / grain_inertia : 0);
+    for_columns(*this, [&](const GrainField& field, auto& column) {
+      if (moves || !field.moving_only) column.push_back(0);
+    });
+    const std::size_t i = size() - 1;
+    for (int k = 0; k < D; ++k) position[k][i] = r[k];
+    for (int k = 0; k < orientation_numbers<D>; ++k) orientation[k][i] = as_at_start<D>()[k];
+    radius[i] = grain_radius;
+    mass[i] = grain_mass;
+    inertia[i] = grain_inertia;
+    inverse_mass[i] = moves ? 1 / grain_mass : 0;
+    inverse_inertia[i] = moves ? 1 / grain_inertia : 0;
     moving += moves;
   }
 
   /// Puts the moving grains into another order: grain k becomes what grain from[k] was. Fixed ones stay.
   void reorder(std::span<const std::int32_t> from) {
-    for (int k = 0; k < D; ++k)
-      chute::reorder(position[k], from), chute::reorder(velocity[k], from), chute::reorder(wraps[k], from);
-    for (int k = 0; k < turns<D>; ++k) chute::reorder(angle[k], from), chute::reorder(spin[k], from);
-    for (auto* a : {&radius, &mass, &inertia, &inverse_mass, &inverse_inertia}) chute::reorder(*a, from);
+    for_columns(*this, [&](const GrainField&, auto& column) { chute::reorder(column, from); });
+  }
+
+  /// What changes in a run, for checkpoints.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    for_columns(*this, [&](const GrainField& field, auto& column) {
+      if (field.changes) archive(column);
+    });
   }
 
  private:
   template <std::size_t K>
-  static Vec<D> gather(const std::array<Array, K>& field, std::size_t i) {
-    Vec<D> r;
-    for (int k = 0; k < D; ++k) r[k] = field[k][i];
+  static Vec<static_cast<int>(K)> gather(const std::array<Array, K>& field, std::size_t i) {
+    Vec<static_cast<int>(K)> r;
+    for (std::size_t k = 0; k < K; ++k) r[static_cast<int>(k)] = field[k][i];
     return r;
   }
+};
+
+/// One field of the grains as files hold it.
+struct FieldView {
+  GrainField what;
+  std::vector<std::span<const double>> numbers;  ///< one span per component,
+  std::span<const int> words;                    ///< or whole numbers
 };
 
 /// What observers and writers see of the grains, whatever the dimension and the engine: spans that stay valid
@@ -104,11 +162,13 @@ struct GrainsView {
   double time = 0;
   std::size_t moving = 0;
   std::array<std::span<const double>, 3> position, velocity, force;
-  std::array<std::span<const double>, 3> angle, spin;  ///< in 2D only [0], about the plane's normal
+  std::array<std::span<const double>, 3> spin;         ///< in 2D only [0], about the plane's normal
+  std::array<std::span<const double>, 4> orientation;  ///< in 2D only [0], an angle
   std::span<const double> radius, mass, inertia;
-  std::array<std::span<const int>, 3>
-      wraps;                       ///< of the moving grains; with `period`, the way around the domain
-  std::array<double, 3> period{};  ///< 0 where the domain is not periodic
+  std::span<const int> material;
+  std::array<std::span<const int>, 3> wraps;  ///< of the moving grains; with `period`, the way around the domain
+  std::array<double, 3> period{};             ///< 0 where the domain is not periodic
+  std::vector<FieldView> fields;              ///< those that files hold, but for `force`
 
   std::size_t size() const { return radius.size(); }
 
@@ -116,12 +176,23 @@ struct GrainsView {
   double unwrapped(std::size_t i, std::size_t k) const {
     return position[k][i] + static_cast<double>(wraps[k][i]) * period[k];
   }
+  std::array<double, 3> place(std::size_t i) const {
+    return {position[0][i], position[1][i], dimensions == 3 ? position[2][i] : 0};
+  }
+  /// The shortest way from grain i to grain j.
+  std::array<double, 3> way(std::size_t i, std::size_t j) const {
+    std::array<double, 3> d{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions); ++k) {
+      d[k] = position[k][j] - position[k][i];
+      if (period[k] > 0) d[k] = Domain<3>::nearest_image(d[k], period[k], period[k] / 2);
+    }
+    return d;
+  }
 };
 
 /// The view of these grains at `time`, under these forces; it points into both.
 template <int D>
-GrainsView view_of(const Grains<D>& grains, std::span<const Array> force, const Domain<D>& domain,
-                   double time) {
+GrainsView view_of(const Grains<D>& grains, std::span<const Array> force, const Domain<D>& domain, double time) {
   GrainsView view;
   view.dimensions = D;
   view.time = time;
@@ -134,10 +205,21 @@ GrainsView view_of(const Grains<D>& grains, std::span<const Array> force, const 
     view.wraps[axis] = grains.wraps[axis];
     view.period[axis] = domain.periodic(k) ? domain.length[k] : 0;
   }
-  for (std::size_t k = 0; k < turns<D>; ++k) view.angle[k] = grains.angle[k], view.spin[k] = grains.spin[k];
+  for (std::size_t k = 0; k < turns<D>; ++k) view.spin[k] = grains.spin[k];
+  for (std::size_t k = 0; k < orientation_numbers<D>; ++k) view.orientation[k] = grains.orientation[k];
   view.radius = grains.radius;
   view.mass = grains.mass;
   view.inertia = grains.inertia;
+  view.material = grains.material;
+  Grains<D>::for_fields(grains, [&](const GrainField& field, auto columns) {
+    if (!field.file) return;
+    FieldView& f = view.fields.emplace_back(FieldView{field, {}, {}});
+    for (const auto& column : columns)
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(column)>, Array>)
+        f.numbers.emplace_back(column);
+      else
+        f.words = column;
+  });
   return view;
 }
 

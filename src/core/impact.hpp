@@ -14,7 +14,7 @@ namespace chute {
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The begin of a contact, as it was just before any force acted. `bead` is the grain that was hit: the fixed
-/// one, or of two moving grains the one with the lower id.
+/// one, of two moving grains the one with the lower id, or a wall (core/contact.hpp: wall_id).
 struct Impact {
   double time;
   std::int64_t grain, bead;

@@ -1,4 +1,6 @@
 #pragma once
+#include <xmmintrin.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -15,7 +17,7 @@ struct Part {
 
 /// Threads that stay, so that work of a few microseconds can be shared out. Nothing that they compute may
 /// depend on how many there are: work is split into ranges of elements that do not know of each other, and
-/// sums are done by one.
+/// sums are done by one. Members compute in the floating-point mode of the caller (see FlushSubnormals).
 class Team {
  public:
   /// `members` ≥ 1, the caller among them.
@@ -38,6 +40,7 @@ class Team {
     if (threads_.empty()) return work(std::size_t{0});
     job_ = [](const void* w, std::size_t k) { (*static_cast<const Work*>(w))(k); };
     work_ = &work;
+    mode_ = _mm_getcsr();
     busy_.store(threads_.size(), std::memory_order_relaxed);
     publish();
     work(std::size_t{0});
@@ -64,6 +67,7 @@ class Team {
  private:
   void (*job_)(const void*, std::size_t) = nullptr;  // nullptr: go home
   const void* work_ = nullptr;
+  unsigned mode_ = 0;
   alignas(64) std::atomic<std::size_t> round_ = 0;
   alignas(64) std::atomic<std::size_t> busy_ = 0;
   std::vector<std::jthread> threads_;  // last: they go before what they use
@@ -77,6 +81,7 @@ class Team {
       await([&] { return round_.load(std::memory_order_acquire) != seen; }, round_);
       ++seen;
       if (!job_) return;
+      _mm_setcsr(mode_);
       job_(work_, k);
       if (busy_.fetch_sub(1, std::memory_order_release) == 1) busy_.notify_all();
     }

@@ -2,9 +2,10 @@
 #include <functional>
 #include <limits>
 
+#include "core/sphere.hpp"
 #include "laws/collision.hpp"
 #include "laws/list.hpp"
-#include "soft/soft_engine.hpp"
+#include "engines/soft/soft_engine.hpp"
 
 /// Grains in free space, for experiments with a few of them.
 namespace chute::experiments {
@@ -17,7 +18,7 @@ struct Ball {
   Vec<turns<D>> spin{};
   bool fixed = false;  ///< infinitely heavy; it must then be the second one, at rest
 
-  double inertia() const { return 0.4 * mass * radius * radius; }
+  double inertia() const { return sphere_inertia(mass, radius); }
   laws::Collider<D> collider() const {
     return {velocity, spin, radius, fixed ? 0 : 1 / mass, fixed ? 0 : 1 / inertia()};
   }
@@ -40,7 +41,7 @@ laws::Pair pair_of(const Ball<D>& i, const Ball<D>& j) {
 /// The soft-sphere engine without gravity or borders, for grains of about the given diameter; overlaps may
 /// be as deep as they like.
 template <int D>
-soft::SoftSetup<D> free_space(const laws::Contact& laws, double time_step, double diameter) {
+soft::SoftSetup<D> free_space(const laws::ContactLaws& laws, double time_step, double diameter) {
   soft::SoftSetup<D> setup;
   setup.laws = laws;
   setup.time_step = time_step;

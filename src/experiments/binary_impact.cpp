@@ -110,7 +110,7 @@ template struct BinaryImpact<3>;
 template ImpactOutcome<2> collide(const BinaryImpact<2>&);
 template ImpactOutcome<3> collide(const BinaryImpact<3>&);
 
-BinaryImpact<2> Acetate::meet(const laws::Contact& laws, double v, double theta, double steps) {
+BinaryImpact<2> Acetate::meet(const laws::ContactLaws& laws, double v, double theta, double steps) {
   BinaryImpact<2> impact;
   impact.laws = laws;
   impact.normal = {{1, 0}};

@@ -8,7 +8,7 @@ namespace chute::experiments {
 
 template <int D>
 struct BinaryImpact {
-  laws::Contact laws;
+  laws::ContactLaws laws;
   Ball<D> i, j;
   Vec<D> normal{};  ///< n when they meet, a unit vector from i to j (1.10); they must approach: v_n < 0
   double steps =
@@ -66,7 +66,7 @@ struct Acetate {
   static laws::Pair pair() { return laws::Pair(reduced_mass, radius / 2); }
 
   /// Two of them meet with the relative speed v under the impact angle ϑ, tan ϑ = ψ (1.15).
-  static BinaryImpact<2> meet(const laws::Contact& laws, double v, double theta, double steps = 2000);
+  static BinaryImpact<2> meet(const laws::ContactLaws& laws, double v, double theta, double steps = 2000);
 };
 
 }  // namespace chute::experiments

@@ -39,7 +39,7 @@ BrakeFailureOutcome skim(const BrakeFailure& experiment) {
     if (experiment.watch) experiment.watch(engine, engine.time() - lead);
     const auto contacts = engine.contacts();
     for (const auto& contact : contacts) {
-      touched.insert(contact.j);
+      touched.insert(contact.b);
       outcome.deepest = std::max(outcome.deepest, contact.overlap);
       outcome.duration = engine.time() - lead;
     }

@@ -8,7 +8,7 @@ namespace chute::experiments {
 /// Soft ones it traverses faster than they can push back: it brakes less than it should and goes on through
 /// the next ones ("emergency brake").
 struct BrakeFailure {
-  laws::Contact laws;
+  laws::ContactLaws laws;
   Ball<2> ball;  ///< velocity along x > 0
   double wall_radius = 1;
   int count = 20;       ///< grains of the wall

@@ -6,7 +6,7 @@ namespace chute::experiments {
 /// A column of equal grains, all with the same gap between neighbours and the same velocity along it, hits a
 /// wall: thesis 2.1.2. Grains touch each other and the wall, a fixed grain, by the same laws.
 struct Column {
-  laws::Contact laws;
+  laws::ContactLaws laws;
   Ball<2> grain;        ///< its velocity is not looked at
   int count = 10;       ///< N ≥ 1
   double speed = 1;     ///< towards the wall

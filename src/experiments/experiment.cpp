@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "common/atomic_file.hpp"
+#include "core/sphere.hpp"
 #include "scene/angle.hpp"
-#include "scene/contact.hpp"
 
 namespace chute::experiments {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::array kind_words{"normal-impact"sv, "oblique-impact"sv, "column"s
                                 "pushed-cylinder"sv};
 
 double mass_of(const GrainSpec& grain) {
-  return grain.mass ? *grain.mass : *grain.density * 4 / 3 * std::numbers::pi * std::pow(grain.radius, 3);
+  return grain.mass ? *grain.mass : sphere_mass(*grain.density, grain.radius);
 }
 Ball<2> ball_of(const GrainSpec& grain) {
   return {grain.radius, mass_of(grain), {}, {{grain.spin}}, grain.fixed};
@@ -118,7 +118,7 @@ static void describe(Archive& a, Experiment& e) {
   a.required_section("contact", e.contact);
   Output output{e};
   if constexpr (Archive::reading) {
-    scene::check_contact_time(e.contact, e.pair(), a);
+    laws::check_contact_time(e.contact, e.pair(), a);
     a.check(e.kind != Kind::pushed_cylinder || e.units == scene::Units::reduced, "units",
             "of the pushed cylinder are reduced: m = g = r = 1");
     auto made = e.laws();
@@ -249,18 +249,18 @@ std::string to_toml(const Experiment& experiment) {
   return writer.text();
 }
 
-std::vector<run::Fact> facts(const Experiment& e) {
+std::vector<Fact> facts(const Experiment& e) {
   const bool si = e.units == scene::Units::si;
-  std::vector<run::Fact> list;
+  std::vector<Fact> list;
   if (e.kind != Kind::pushed_cylinder) {
     list.push_back({"m_eff", e.pair().m_eff, si ? "kg" : "m", "reduced mass"});
     list.push_back({"R_eff", e.pair().r_eff, si ? "m" : "d", "reduced radius R_i R_j / (R_i + R_j)"});
   }
   if (e.kind == Kind::oblique_impact || e.kind == Kind::brake_failure)
     list.push_back({"theta", e.theta() * 180 / std::numbers::pi, "deg", "impact angle (1.15)"});
-  const auto contact =
-      run::contact_facts(e.contact, e.units, {{"", "that pair", e.pair(), e.reach()}}, e.step());
-  list.insert(list.end(), contact.begin(), contact.end());
+  const laws::NamedPair pair{"", "that pair", e.pair(), e.reach()};
+  for (const auto& facts : {laws::impact_facts(e.contact, si, {pair}), laws::step_facts(e.contact, si, pair, e.step())})
+    list.insert(list.end(), facts.begin(), facts.end());
   if (e.kind == Kind::column)
     list.push_back({"detachment below", 1.0 / static_cast<double>(e.count), "", "t_0/t_n: 1/N"});
   return list;

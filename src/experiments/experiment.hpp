@@ -8,8 +8,8 @@
 #include "experiments/brake_failure.hpp"
 #include "experiments/column.hpp"
 #include "experiments/pushed_cylinder.hpp"
-#include "run/facts.hpp"
-#include "scene/contact_spec.hpp"
+#include "core/fact.hpp"
+#include "laws/contact_spec.hpp"
 #include "scene/scene.hpp"
 
 /// Experiments as scenes: a table [experiment] in place of incline, bed, grains and run, with the contact
@@ -49,12 +49,12 @@ struct Experiment {
   double time_step = 1e-6;
   double steps_per_contact = 500;
 
-  scene::ContactSpec contact;
+  laws::ContactSpec contact;
   Sampling series{0};              ///< default: a hundred rows per contact time, or a thousand
   std::optional<Sampling> frames;  ///< not of the cylinder
 
   double theta() const;  ///< ϑ, radians; 0 of normal impacts
-  laws::Contact laws() const { return contact.laws(pair()); }
+  laws::ContactLaws laws() const { return contact.laws(pair()); }
   /// The pair that contact times and restitutions are given for: i and j, two of the column, ball and wall,
   /// cylinder and plane.
   laws::Pair pair() const;
@@ -81,6 +81,6 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
 std::string to_toml(const Experiment& experiment);
 
 /// What follows from it, for `chute check`.
-std::vector<run::Fact> facts(const Experiment& experiment);
+std::vector<Fact> facts(const Experiment& experiment);
 
 }  // namespace chute::experiments

@@ -87,7 +87,7 @@ std::vector<double> pair_row(const Engine2& engine) {
 }
 
 /// d ln(1 − e_n) / d ln v of the normal law: 0, −1/5, 1/5 in the elastic limits of (3.1), (3.5), (3.6).
-double loss_exponent(const laws::Contact& laws, double v, laws::Pair pair) {
+double loss_exponent(const laws::ContactLaws& laws, double v, laws::Pair pair) {
   const double step = 1.02, a = laws::normal_impact(laws, v / step, pair).restitution,
                b = laws::normal_impact(laws, v * step, pair).restitution;
   return std::log((1 - b) / (1 - a)) / (2 * std::log(step));

@@ -6,7 +6,7 @@ namespace chute::experiments {
 
 /// What an experiment gave.
 struct Outcome {
-  std::vector<run::Fact> results;
+  std::vector<Fact> results;
   std::int64_t steps = 0;
   double time = 0;
   // only if recorded:

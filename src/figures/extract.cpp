@@ -9,6 +9,7 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "core/estimate.hpp"
 #include "figures/peaks.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
@@ -21,7 +22,17 @@ namespace {
 class Impacts {
  public:
   explicit Impacts(const fs::path& run)
-      : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {}
+      : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {
+    // Velocities along the line and towards it, (4.4) and (4.5) solved for v_x and v_z
+    const auto &gamma = column(fields::gamma.name), &v_n = column(fields::v_n.name), &v_t = column(fields::v_t.name);
+    read::PointArray v_x{"v_x", 1, {}}, v_z{"v_z", 1, {}};
+    for (std::size_t i = 0; i < gamma.size(); ++i) {
+      v_x.values.push_back(v_n[i] * std::sin(gamma[i]) + v_t[i] * std::cos(gamma[i]));
+      v_z.values.push_back(-(v_n[i] * std::cos(gamma[i]) - v_t[i] * std::sin(gamma[i])));
+    }
+    points_.point_arrays.push_back(std::move(v_x));
+    points_.point_arrays.push_back(std::move(v_z));
+  }
 
   const std::vector<double>& column(std::string_view name) const {
     for (const auto& array : points_.point_arrays)
@@ -48,7 +59,7 @@ std::vector<double> joined(const Curve& curve, std::span<const fs::path> runs) {
   for (const auto& run : runs) {
     const Impacts impacts(run);
     for (const double v : impacts.column(curve.column))
-      values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));
+      if (std::isfinite(v)) values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));  // else unknown
   }
   return values;
 }
@@ -65,7 +76,7 @@ std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> r
   std::vector<double> counts(bins);
   double inside = 0;
   for (double v : values) {
-    if (v < low || v > high) continue;
+    if (!(v >= low && v <= high)) continue;  // nor what is not a number
     counts[std::min(bins - 1, static_cast<std::size_t>((v - low) / width))] += 1;
     inside += 1;
   }
@@ -151,15 +162,8 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
   }
   std::vector<FigureRow> rows;
   for (const auto& [x, values] : at) {
-    const auto n = static_cast<double>(values.y.size());
-    double mean = 0, square = 0;
-    for (double y : values.y) mean += y / n;
-    for (double y : values.y) square += (y - mean) * (y - mean);
-    std::optional<double> error;
-    if (values.y.size() > 1)
-      error = std::sqrt(square / (n - 1) / n);
-    else if (std::isfinite(values.err[0]))
-      error = values.err[0];
+    auto [mean, error] = estimate_of(values.y);
+    if (!error && std::isfinite(values.err[0])) error = values.err[0];
     rows.push_back({curve.panel, curve.series, x, mean, {}, error});
   }
   return rows;

@@ -83,7 +83,10 @@ void join_shallow(std::vector<Hill>& hills, const std::vector<double>& density) 
 
 std::vector<Peak> find_peaks(std::span<const double> values, double bandwidth) {
   if (values.empty()) return {};
-  std::vector<double> sorted(values.begin(), values.end());
+  std::vector<double> sorted;
+  for (const double v : values)
+    if (std::isfinite(v)) sorted.push_back(v);  // a first flight is not known
+  if (sorted.empty()) return {};
   std::sort(sorted.begin(), sorted.end());
   const Density density = density_of(sorted, bandwidth);
   auto hills = hills_of(density.at);

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <zlib.h>
 
 #include <map>
 
 #include "common/error.hpp"
+#include "common/hash.hpp"
 #include "common/side_by_side.hpp"
 #include "figures/extract.hpp"
 #include "run/flow.hpp"
@@ -41,14 +41,12 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
       if (quick) settings.insert(settings.end(), recipe.quick.begin(), recipe.quick.end());
       settings.push_back(fmt::format("seed={}", seed));
       auto scene = scene::read_scene(scene_file, settings);
-      scene.output.frames.reset();  // a figure needs none
-      scene.output.contacts = false;
+      scene.drop_output("frames");  // a figure needs none
       const auto text = scene::to_toml(scene);
       const auto [at, is_new] = known.try_emplace(text, plan.jobs.size());
       if (is_new) {
-        const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
         plan.jobs.push_back(
-            {std::move(scene), work / fmt::format("{}-{:08x}", scene_file.stem().string(), sum)});
+            {std::move(scene), work / fmt::format("{}-{}", scene_file.stem().string(), hash_of(text).substr(0, 16))});
       }
       needed.push_back(at->second);
     }
@@ -131,7 +129,7 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     auto set = recipe.set;
     if (context.quick) set.insert(set.end(), recipe.quick.begin(), recipe.quick.end());
     const auto made = sweep_curves(recipe.sweeps,
-                                   {{recipe_file.parent_path() / *recipe.scene, set},
+                                   {sweep::Base(recipe_file.parent_path() / *recipe.scene, set),
                                     seeds,
                                     context.quick,
                                     context.jobs,

@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "figures/square_root_fit.hpp"
+#include "scene/world.hpp"
 
 namespace chute::figures {
 namespace {
@@ -24,12 +25,12 @@ bool is_boundary(const SweepCurve& curve) { return curve.column == Column::AB ||
 struct Point {
   const SweepCurve* curve;
   double x;
-  std::optional<measure::Estimate> y;  ///< empty: no such value there
+  std::optional<Estimate> y;  ///< empty: no such value there
   bool in_B = false;
 };
 
 /// A boundary along the inclination as an angle θ.
-measure::Estimate as_angle(const sweep::Axis& axis, const measure::Estimate& e) {
+Estimate as_angle(const sweep::Axis& axis, const Estimate& e) {
   if (axis.key == "incline.sin") return {std::asin(e.mean), *e.error / std::sqrt(1 - e.mean * e.mean)};
   const double unit = axis.unit == "deg" ? std::numbers::pi / 180 : 1;
   return {e.mean * unit, *e.error * unit};
@@ -57,7 +58,7 @@ class Sweeps {
     if (curve.column == Column::v_x) {
       point.y = slow.median;
     } else if (slow.count(measure::Verdict::steady) > 0) {
-      const double R = curve.column == Column::surface_speed ? base.scene({}).mean_diameter() / 2 : 1;
+      const double R = curve.column == Column::surface_speed ? scene::setting_of(base.scene({})).mean_diameter / 2 : 1;
       point.y = slow.omega;
       point.y->mean *= R;
       if (point.y->error) *point.y->error *= R;

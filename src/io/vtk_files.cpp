@@ -80,9 +80,19 @@ std::string bytes(vtkPolyData* data) {
   return writer->GetOutputString();
 }
 
-double component(const std::array<std::span<const double>, 3>& field, std::size_t i, int k) {
-  const auto& column = field[static_cast<std::size_t>(k)];
-  return column.empty() ? 0 : column[i];
+/// A field of the grains. Vectors and turns have three components in files whatever the dimension: of a vector in the
+/// plane the third is 0, and a turn about the plane's normal is the third.
+void add_field(vtkDataSetAttributes* to, const FieldView& field, std::size_t count) {
+  const auto name = field.what.file->name;
+  if (!field.words.empty())
+    return add_array<vtkIntArray>(to, name, count, 1, [&](std::size_t i, int) { return field.words[i]; });
+  const int own = static_cast<int>(field.numbers.size());
+  const bool spatial = field.what.kind == FieldKind::vector || field.what.kind == FieldKind::turn;
+  const int shift = field.what.kind == FieldKind::turn ? 3 - own : 0;
+  add_array<vtkDoubleArray>(to, name, count, spatial ? 3 : own, [&](std::size_t i, int k) {
+    const int c = k - shift;
+    return c >= 0 && c < own ? field.numbers[static_cast<std::size_t>(c)][i] : 0;
+  });
 }
 
 }  // namespace
@@ -90,32 +100,16 @@ double component(const std::array<std::span<const double>, 3>& field, std::size_
 std::string grains_vtp(const GrainsView& grains, const RunFacts& facts) {
   vtkNew<vtkPolyData> data;
   const std::size_t n = grains.size();
-  const auto place = [&](std::size_t i) {
-    return std::array{component(grains.position, i, 0), component(grains.position, i, 1),
-                      component(grains.position, i, 2)};
-  };
-  add_vertices(data, n, place);
+  add_vertices(data, n, [&](std::size_t i) { return grains.place(i); });
   auto* to = data->GetPointData();
-  const bool flat = grains.dimensions == 2;
-  // A turn about the plane's normal is the z component of the files' vectors.
-  const auto turn = [&](const auto& field, std::size_t i, int k) {
-    return flat ? (k == 2 ? field[0][i] : 0) : field[static_cast<std::size_t>(k)][i];
-  };
   add_array<vtkLongLongArray>(to, fields::id.name, n, 1, [](std::size_t i, int) { return i; });
   add_array<vtkIntArray>(to, fields::type.name, n, 1,
                          [&](std::size_t i, int) { return i < grains.moving ? 1 : 0; });
-  add_array<vtkDoubleArray>(to, fields::radius.name, n, 1,
-                            [&](std::size_t i, int) { return grains.radius[i]; });
-  add_array<vtkDoubleArray>(to, fields::mass.name, n, 1, [&](std::size_t i, int) { return grains.mass[i]; });
-  add_array<vtkDoubleArray>(to, fields::velocity.name, n, 3,
-                            [&](std::size_t i, int k) { return component(grains.velocity, i, k); });
-  add_array<vtkDoubleArray>(to, fields::angular_velocity.name, n, 3,
-                            [&](std::size_t i, int k) { return turn(grains.spin, i, k); });
-  if (flat)
-    add_array<vtkDoubleArray>(to, fields::angle.name, n, 1,
-                              [&](std::size_t i, int) { return grains.angle[0][i]; });
-  add_array<vtkDoubleArray>(to, fields::force.name, n, 3,
-                            [&](std::size_t i, int k) { return component(grains.force, i, k); });
+  for (const auto& field : grains.fields) add_field(to, field, n);
+  add_array<vtkDoubleArray>(to, fields::force.name, n, 3, [&](std::size_t i, int k) {
+    const auto& column = grains.force[static_cast<std::size_t>(k)];
+    return column.empty() ? 0 : column[i];
+  });
   add_numbers(data, fields::time_value, std::array{grains.time});
   add_facts(data, facts);
   return bytes(data);
@@ -146,22 +140,16 @@ std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts) 
   return bytes(data);
 }
 
-std::string contacts_vtp(const GrainsView& grains, std::span<const ContactRecord> contacts,
-                         const RunFacts& facts) {
+std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> contacts, const RunFacts& facts) {
   vtkNew<vtkPolyData> data;
   const std::size_t n = contacts.size();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> lines;
   for (const auto& contact : contacts) {
-    std::array<double, 3> from{}, to{};
-    for (int k = 0; k < 3; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      from[axis] = component(grains.position, static_cast<std::size_t>(contact.i), k);
-      to[axis] = component(grains.position, static_cast<std::size_t>(contact.j), k);
-      const double length = facts.domain[2 * axis + 1] - facts.domain[2 * axis];
-      if (length > 0) to[axis] -= length * std::round((to[axis] - from[axis]) / length);
-    }
+    const auto from = grains.place(static_cast<std::size_t>(contact.a));
+    std::array<double, 3> to{};
+    for (std::size_t k = 0; k < 3; ++k) to[k] = from[k] + contact.branch[k];
     const std::array<vtkIdType, 2> ends{points->InsertNextPoint(from.data()),
                                         points->InsertNextPoint(to.data())};
     lines->InsertNextCell(2, ends.data());
@@ -169,13 +157,110 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const ContactRecord
   data->SetPoints(points);
   data->SetLines(lines);
   auto* to = data->GetCellData();
-  const auto number = [&](const char* name, double ContactRecord::*member) {
-    add_array<vtkDoubleArray>(to, name, n, 1, [&](std::size_t i, int) { return contacts[i].*member; });
+  const auto number = [&](const fields::Field& field, double Contact::*member) {
+    add_array<vtkDoubleArray>(to, field.name, n, 1, [&](std::size_t i, int) { return contacts[i].*member; });
   };
-  number("normal_force", &ContactRecord::normal_force);
-  number("shear_force", &ContactRecord::shear_force);
-  number("overlap", &ContactRecord::overlap);
+  const auto vector = [&](const fields::Field& field, std::array<double, 3> Contact::*member) {
+    add_array<vtkDoubleArray>(to, field.name, n, 3, [&](std::size_t i, int k) {
+      return (contacts[i].*member)[static_cast<std::size_t>(k)];
+    });
+  };
+  add_array<vtkLongLongArray>(to, fields::contact_a.name, n, 1, [&](std::size_t i, int) { return contacts[i].a; });
+  add_array<vtkLongLongArray>(to, fields::contact_b.name, n, 1, [&](std::size_t i, int) { return contacts[i].b; });
+  vector(fields::point, &Contact::point);
+  vector(fields::normal, &Contact::normal);
+  vector(fields::branch, &Contact::branch);
+  number(fields::overlap, &Contact::overlap);
+  vector(fields::force, &Contact::force);
+  number(fields::normal_force, &Contact::normal_force);
+  number(fields::shear_force, &Contact::shear_force);
+  add_array<vtkIntArray>(to, fields::state.name, n, 1,
+                         [&](std::size_t i, int) { return static_cast<int>(contacts[i].state); });
   add_numbers(data, fields::time_value, std::array{grains.time});
+  add_facts(data, facts);
+  return bytes(data);
+}
+
+namespace {
+
+using Corner = std::array<double, 3>;
+
+/// What of a polygon (or, of two corners, a line) lies on the side where (r − at)[axis] · side ≤ 0.
+std::vector<Corner> cut(const std::vector<Corner>& polygon, std::size_t axis, double at, double side) {
+  std::vector<Corner> inside;
+  const std::size_t n = polygon.size(), edges = n == 2 ? 1 : n;
+  const auto beyond = [&](const Corner& c) { return side * (c[axis] - at); };
+  for (std::size_t e = 0; e < edges; ++e) {
+    const Corner &a = polygon[e], &b = polygon[(e + 1) % n];
+    const double da = beyond(a), db = beyond(b);
+    if (da <= 0) inside.push_back(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
+      Corner& c = inside.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) c[k] = a[k] + da / (da - db) * (b[k] - a[k]);
+    }
+    if (n == 2 && db <= 0) inside.push_back(b);
+  }
+  return inside;
+}
+
+/// The plane within the room.
+std::vector<Corner> corners_of(const RunFacts::Plane& wall, const RunFacts& facts) {
+  double size = 1;
+  Corner middle{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    size += facts.room[2 * k + 1] - facts.room[2 * k];
+    middle[k] = (facts.room[2 * k] + facts.room[2 * k + 1]) / 2;
+  }
+  double height = 0;
+  for (std::size_t k = 0; k < 3; ++k) height += (middle[k] - wall.point[k]) * wall.normal[k];
+  const Vec<3> n{{wall.normal[0], wall.normal[1], wall.normal[2]}};
+  // Along the plane: in 2D within it; in 3D across the axis that n is farthest from.
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (std::abs(wall.normal[k]) < std::abs(wall.normal[axis])) axis = k;
+  Vec<3> out{};
+  out[facts.dimensions == 2 ? 2 : static_cast<int>(axis)] = 1;
+  Vec<3> u = cross(n, out);
+  u = (size / norm(u)) * u;
+  const Vec<3> v = facts.dimensions == 2 ? Vec<3>{} : cross(n, u);
+  std::vector<Corner> corners;
+  const auto add = [&](double a, double b) {
+    Corner& c = corners.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      c[k] = middle[k] - height * wall.normal[k] + a * u[static_cast<int>(k)] + b * v[static_cast<int>(k)];
+  };
+  add(-1, -1), add(1, -1);
+  if (facts.dimensions == 3) add(1, 1), add(-1, 1);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facts.dimensions); ++k)
+    for (const double side : {-1.0, 1.0}) {
+      if (corners.size() < 2) return {};
+      corners = cut(corners, k, facts.room[2 * k + (side > 0)], side);
+    }
+  return corners;
+}
+
+}  // namespace
+
+std::string walls_vtp(const RunFacts& facts) {
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> cells;
+  std::vector<int> wall;
+  for (std::size_t w = 0; w < facts.walls.size(); ++w) {
+    std::vector<vtkIdType> ids;
+    for (const auto& corner : corners_of(facts.walls[w], facts)) ids.push_back(points->InsertNextPoint(corner.data()));
+    if (ids.size() < 2) continue;
+    cells->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+    wall.push_back(static_cast<int>(w));
+  }
+  data->SetPoints(points);
+  if (facts.dimensions == 2)
+    data->SetLines(cells);
+  else
+    data->SetPolys(cells);
+  add_array<vtkIntArray>(data->GetCellData(), fields::wall.name, wall.size(), 1,
+                         [&](std::size_t i, int) { return wall[i]; });
   add_facts(data, facts);
   return bytes(data);
 }

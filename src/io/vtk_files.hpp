@@ -1,10 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/engine.hpp"
+#include "core/world.hpp"
 
 /// chute's VTK files (binary appended, compressed; ParaView opens them). Each function gives the bytes of a
 /// file, so that one place writes files and knows about full disks. Array names stand in common/fields.hpp.
@@ -13,20 +15,51 @@ namespace chute::io {
 /// What every file says about its run.
 struct RunFacts {
   std::string units;               ///< "SI" or "reduced"
+  int dimensions = 2;
   std::array<double, 6> domain{};  ///< x0 x1 y0 y1 z0 z1; equal ends where it is not periodic
   std::array<double, 3> gravity{};
+  struct Plane {
+    std::array<double, 3> point, normal;  ///< into the grains
+  };
+  std::vector<Plane> walls;
+  std::array<double, 6> room{};  ///< as `domain`: the box that walls are drawn in
 };
 
-/// All grains as vertices. 2D grains lie at z = 0 and spin about z.
+/// The facts of a world; `room` is where its grains are and its domain.
+template <int D>
+RunFacts facts_of(const World<D>& world, std::string units) {
+  RunFacts facts;
+  facts.units = std::move(units);
+  facts.dimensions = D;
+  facts.gravity = as_file_vector(world.gravity);
+  for (const auto& wall : world.walls) facts.walls.push_back({as_file_vector(wall.point), as_file_vector(wall.normal)});
+  for (int k = 0; k < D; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    double low = world.domain.lower[k], high = low;
+    for (std::size_t i = 0; i < world.grains.size(); ++i) {
+      low = std::min(low, world.grains.position[axis][i] - world.grains.radius[i]);
+      high = std::max(high, world.grains.position[axis][i] + world.grains.radius[i]);
+    }
+    if (world.domain.periodic(k)) {
+      low = world.domain.lower[k], high = low + world.domain.length[k];
+      facts.domain[2 * axis] = low, facts.domain[2 * axis + 1] = high;
+    }
+    facts.room[2 * axis] = low, facts.room[2 * axis + 1] = high;
+  }
+  return facts;
+}
+
+/// All grains as vertices, with the fields that core/grains.hpp declares. 2D grains lie at z = 0 and spin about z.
 std::string grains_vtp(const GrainsView& grains, const RunFacts& facts);
 
 /// One vertex per impact, where the surfaces met.
 std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts);
 
-/// The contact network: a line between the centres of each touching pair (nearest images), with the arrays
-/// `normal_force`, `shear_force`, `overlap`.
-std::string contacts_vtp(const GrainsView& grains, std::span<const ContactRecord> contacts,
-                         const RunFacts& facts);
+/// The contact network: a line along the branch of each contact, with everything that a Contact tells.
+std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> contacts, const RunFacts& facts);
+
+/// The walls as polygons (in 2D lines), where they cross the room.
+std::string walls_vtp(const RunFacts& facts);
 
 /// Time index of files, as ParaView reads it.
 std::string pvd(std::span<const double> times, std::span<const std::string> files);

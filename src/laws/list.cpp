@@ -2,8 +2,8 @@
 
 namespace chute::laws {
 
-Contact make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference) {
-  Contact contact;
+ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference) {
+  ContactLaws contact;
   contact.attraction = reference.attraction;
   contact.normal = std::visit(
       [&](const auto& keys) -> Normal {

@@ -35,7 +35,7 @@ using Normal = std::variant<SpringDashpot, Hertz, HertzLinearDamping, HertzKuwab
 using Shear = std::variant<Frictionless, RegularisedCoulomb, Coulomb, Viscous, CundallStrack, MindlinSpring,
                            WaltonBraunMindlin, SawTooth>;
 
-struct Contact {
+struct ContactLaws {
   Normal normal;
   Shear shear;
   bool attraction = true;  ///< may damping pull the grains together at the end? false: F_n is clipped at 0
@@ -76,7 +76,7 @@ concept ShearWithMemory = requires {
   Law::vectors;
 };
 
-inline bool needs_radius(const Contact& contact) {
+inline bool needs_radius(const ContactLaws& contact) {
   return std::visit([](const auto& law) { return law.needs_radius(); }, contact.normal) ||
          std::visit(
              []<class Law>(const Law& law) {
@@ -89,7 +89,7 @@ inline bool needs_radius(const Contact& contact) {
 }
 
 /// A head-on impact under the normal law, clipped if the contact says so.
-inline NormalImpact normal_impact(const Contact& contact, double speed, Pair p) {
+inline NormalImpact normal_impact(const ContactLaws& contact, double speed, Pair p) {
   return std::visit(
       [&]<class Law>(const Law& law) {
         if constexpr (NormalWithMemory<Law>)
@@ -115,6 +115,6 @@ inline double* friction(Shear& shear) {
 }
 
 /// The laws that a scene's keys come to.
-Contact make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference);
+ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference);
 
 }  // namespace chute::laws

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/root.hpp"
+
 namespace chute::laws {
 namespace {
 
@@ -81,13 +83,9 @@ NormalImpact integrate_impact(const std::function<double(double, double)>& force
 
 double damping_for(const std::function<double(double)>& restitution, double e_n, double guess) {
   if (e_n >= 1) return 0;
-  double low = 0, high = guess;
-  while (restitution(high) > e_n) low = high, high *= 2;
-  for (int k = 0; k < 60 && high - low > 1e-13 * high; ++k) {
-    const double middle = (low + high) / 2;
-    (restitution(middle) > e_n ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  double high = guess;
+  while (restitution(high) > e_n) high *= 2;
+  return root_between([&](double damping) { return restitution(damping) - e_n; }, 0, high);
 }
 
 }  // namespace chute::laws

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/root.hpp"
 #include "laws/keys.hpp"
 #include "laws/normal_impact.hpp"
 
@@ -16,7 +17,7 @@ namespace chute::laws {
 /// to `mass_scaling`) or derived for each pair so that the pair has the asked restitution: γ_n = −2 ln e_n
 /// √(k_n m_eff / (π² + ln² e_n)), from (3.2) and (3.3).
 ///
-/// Where attraction is not allowed (laws::Contact::attraction), the grains part when the force vanishes and
+/// Where attraction is not allowed (laws::ContactLaws::attraction), the grains part when the force vanishes and
 /// drift until ξ = 0. They lose less then; `clipped_restitution` is the closed form, and `from_restitution`
 /// takes the damping that gives the asked restitution in that case.
 class SpringDashpot {
@@ -87,15 +88,13 @@ class SpringDashpot {
   double stiffness_ = 0, stiffness_per_mass_ = 0;
   double damping_ = 0, damping_per_root_mass_ = 0, damping_per_mass_ = 0;
 
-  /// Inverse of clipped_restitution, which falls from 1 to e^-2 at ratio 1: halving to the last bit.
-  /// Restitutions below e^-2 = 0.135 need over-critical damping and give the ratio 1.
+  /// Inverse of clipped_restitution, which falls from 1 to e^-2 at ratio 1. Restitutions below e^-2 = 0.135 need
+  /// over-critical damping and give the ratio 1.
   static double clipped_damping_ratio(double e_n) {
-    double low = 0, high = 1;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = (low + high) / 2;
-      (clipped_restitution(middle) > e_n ? low : high) = middle;
-    }
-    return (low + high) / 2;
+    constexpr double last = 1 - 1e-9;  // at 1 the form is 0/0
+    if (e_n >= 1) return 0;
+    if (e_n <= clipped_restitution(last)) return 1;
+    return root_between([&](double ratio) { return clipped_restitution(ratio) - e_n; }, 0, last);
   }
 };
 

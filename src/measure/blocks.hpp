@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "measure/estimate.hpp"
+#include "core/estimate.hpp"
 
 namespace chute::measure {
 
@@ -78,18 +78,8 @@ class Blocks {
   std::vector<Part> blocks_;
 };
 
-/// Standard error of a mean from the scatter of its values over stretches of time; none from a single one.
-inline std::optional<double> stretch_error(const std::vector<double>& values) {
-  if (values.size() < 2) return {};
-  const auto n = static_cast<double>(values.size());
-  double mean = 0, square = 0;
-  for (double v : values) mean += v / n;
-  for (double v : values) square += (v - mean) * (v - mean);
-  return std::sqrt(square / (n - 1) / n);
-}
-
 /// What `mean_of(sums, samples)` says about one bin: of the whole window, so that fluctuations count slow
-/// changes too, with the error from the stretches. Stretches in which it is not finite do not count.
+/// changes too, with the error from the scatter over the stretches. Stretches in which it is not finite do not count.
 template <class Sums, class MeanOf>
 Estimate estimate_bin(const std::vector<typename Blocks<Sums>::Part>& stretches, std::size_t bin,
                       const MeanOf& mean_of) {
@@ -102,7 +92,7 @@ Estimate estimate_bin(const std::vector<typename Blocks<Sums>::Part>& stretches,
     if (const double value = mean_of(stretch.bins[bin], stretch.samples); std::isfinite(value))
       values.push_back(value);
   }
-  return {mean_of(total, samples), stretch_error(values)};
+  return {mean_of(total, samples), estimate_of(values).error};
 }
 
 }  // namespace chute::measure

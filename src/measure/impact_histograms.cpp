@@ -12,9 +12,11 @@ ImpactHistograms::ImpactHistograms(const HistogramBins& bins, const Window& wind
 
 void ImpactHistograms::add(std::span<const Impact> impacts, std::size_t moving) {
   for (const auto& impact : impacts) {
+    if (!std::isfinite(impact.gamma) || !std::isfinite(impact.v_n)) continue;  // not a number belongs to no bin
     auto& sums = blocks_.sample(impact.time);
     sums.resize(bins_.angles + bins_.velocities + 1);
-    const auto kind = static_cast<std::size_t>(impact.bead >= static_cast<std::int64_t>(moving));
+    const auto kind =
+        static_cast<std::size_t>(is_wall(impact.bead) || impact.bead >= static_cast<std::int64_t>(moving));
     const double speed = std::abs(impact.v_n), angle = impact.gamma - pi * std::floor(impact.gamma / pi);
     const auto count = [&](std::size_t bin) {
       sums[bin].count[kind] += 1;

@@ -1,63 +1,69 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <string>
 
-#include "core/domain.hpp"
 #include "core/engine.hpp"
+#include "core/frame.hpp"
 
 namespace chute::measure {
 
-/// Masses, momenta and stresses of one layer of a 2D flow, summed over samples. Stresses are positive in
-/// compression; [0], [1], [2] are xx, xy, yy, the first letter the direction of momentum, the second that of
-/// its flux.
-struct LayerSums {
-  double mass = 0, momentum_x = 0, momentum_y = 0;
-  std::array<double, 3> flux{};     ///< Σ m v v
-  std::array<double, 3> contact{};  ///< Σ f l, force on the one grain times the way to it from the other
+/// A symmetric tensor's components in the coordinates of files: xx, xy, xz, yy, yz, zz; the first letter is the
+/// direction of momentum, the second that of its flux. In 2D xz, yz and zz are 0.
+using Tensor = std::array<double, 6>;
+inline constexpr std::array<std::pair<std::size_t, std::size_t>, 6> tensor_axes{
+    {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+inline constexpr std::array<const char*, 6> tensor_names{"xx", "xy", "xz", "yy", "yz", "zz"};
+inline constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
+inline bool exists_in(int dimensions, std::size_t tensor_component) {
+  return static_cast<int>(tensor_axes[tensor_component].second) < dimensions;
+}
 
-  void add_grain(double m, double v_x, double v_y) {
+/// Masses, momenta and stresses of one layer of a flow, summed over samples. Stresses are positive in compression.
+struct LayerSums {
+  double mass = 0;
+  std::array<double, 3> momentum{};
+  Tensor flux{};     ///< Σ m v v
+  Tensor contact{};  ///< Σ f l, force on the one grain times the way to it from the other
+
+  void add_grain(double m, const std::array<double, 3>& v) {
     mass += m;
-    momentum_x += m * v_x, momentum_y += m * v_y;
-    flux[0] += m * v_x * v_x, flux[1] += m * v_x * v_y, flux[2] += m * v_y * v_y;
+    for (std::size_t k = 0; k < 3; ++k) momentum[k] += m * v[k];
+    for (std::size_t t = 0; t < 6; ++t) flux[t] += m * v[tensor_axes[t].first] * v[tensor_axes[t].second];
+  }
+  /// The part of a contact's branch that lies in this layer.
+  void add_contact(const Contact& c, double part) {
+    for (std::size_t t = 0; t < 6; ++t)
+      contact[t] += part * c.force[tensor_axes[t].first] * c.branch[tensor_axes[t].second];
   }
   LayerSums& operator+=(const LayerSums& o) {
-    mass += o.mass, momentum_x += o.momentum_x, momentum_y += o.momentum_y;
-    for (std::size_t k = 0; k < 3; ++k) flux[k] += o.flux[k], contact[k] += o.contact[k];
+    mass += o.mass;
+    for (std::size_t k = 0; k < 3; ++k) momentum[k] += o.momentum[k];
+    for (std::size_t t = 0; t < 6; ++t) flux[t] += o.flux[t], contact[t] += o.contact[t];
     return *this;
   }
   /// Kinetic stress times area: what fluctuates about the mean velocity carries.
-  std::array<double, 3> kinetic() const {
-    if (mass == 0) return {};
-    return {flux[0] - momentum_x * momentum_x / mass, flux[1] - momentum_x * momentum_y / mass,
-            flux[2] - momentum_y * momentum_y / mass};
+  double kinetic(std::size_t t) const {
+    if (mass == 0) return 0;
+    return flux[t] - momentum[tensor_axes[t].first] * momentum[tensor_axes[t].second] / mass;
   }
   template <class Archive>
   void serialize(Archive& a) {
-    a(mass, momentum_x, momentum_y, flux, contact);
+    a(mass, momentum, flux, contact);
   }
 };
 
-/// A contact of a 2D flow, as stresses need it: from the centre of grain i at height h_i by `way` to that of
-/// grain j, with the force on j.
-struct Branch {
-  double h_i;
-  Vec<2> way, force;
-  /// The stress, times area, of the part of the branch that lies in a layer.
-  std::array<double, 3> stress(double part) const {
-    return {part * force[0] * way[0], part * force[0] * way[1], part * force[1] * way[1]};
-  }
-};
-
-inline Branch branch_of(const ContactRecord& contact, const GrainsView& grains) {
-  const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
-  const auto between = [&](std::size_t k) {
-    const double d = grains.position[k][j] - grains.position[k][i], period = grains.period[k];
-    return period > 0 ? Domain<2>::nearest_image(d, period, period / 2) : d;
-  };
-  const Vec<2> way{{between(0), between(1)}};
-  const Vec<2> n = 1 / norm(way) * way;
-  const Vec<2> s{{n[1], -n[0]}};
-  return {grains.position[1][i], way, contact.normal_force * n + contact.shear_force * s};
+/// A grain's velocity with the components of files.
+inline std::array<double, 3> velocity_of(const GrainsView& grains, std::size_t i) {
+  return {grains.velocity[0][i], grains.velocity[1][i], grains.dimensions == 3 ? grains.velocity[2][i] : 0};
 }
+
+/// Height at which a contact's branch begins.
+inline double begin_of(const Contact& contact, const GrainsView& grains, std::size_t normal) {
+  return grains.position[normal][static_cast<std::size_t>(contact.a)];
+}
+
+/// One grain thrown far up must not take all memory: layers above this many are not kept. What lies there is counted.
+inline constexpr std::size_t most_layers = 4096;
 
 }  // namespace chute::measure

@@ -92,27 +92,10 @@ struct Trend {
       if (k > 0) next += off[k] * off[k - 1];
     }
     change = n * slope;
-    change_error = n * std::sqrt(square / (n - 2) / spread) * inflation(square > 0 ? next / square : 0);
+    change_error = n * std::sqrt(square / (n - 2) / spread) * correlation_factor(square > 0 ? next / square : 0);
     scatter = std::sqrt(all / (n - 1));
   }
-  /// What correlation r of neighbours does to the standard error of a mean (AR(1)).
-  static double inflation(double r) {
-    const double kept = std::clamp(r, 0.0, 0.8);
-    return std::sqrt((1 + kept) / (1 - kept));
-  }
 };
-
-Estimate estimate(std::span<const double> values) {
-  const auto n = static_cast<double>(values.size());
-  const double middle = mean(values);
-  double square = 0, next = 0;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    square += (values[k] - middle) * (values[k] - middle);
-    if (k > 0) next += (values[k] - middle) * (values[k - 1] - middle);
-  }
-  const double r = square > 0 ? next / square : 0;
-  return {middle, std::sqrt(square / (n - 1) / n) * Trend::inflation(r)};
-}
 
 /// First row of the rest at the end, if there is one.
 std::optional<std::size_t> rest(const FlowSeries& s, const FlowScales& scales) {
@@ -186,11 +169,30 @@ Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
   const auto first = record.row(0, std::min(transient(v), 3 * blocks / 5), blocks);
   const double way = std::abs(series.x.back() - series.x[first]);
   if (way >= 20 * scales.length && is_steady(record, first))
-    return {Verdict::steady, series.time[first], estimate(record.velocities(first, stretches)),
-            estimate(record.means(series.omega, first, stretches)),
-            estimate(record.means(series.kinetic, first, stretches))};
+    return {Verdict::steady, series.time[first], estimate_in_time(record.velocities(first, stretches)),
+            estimate_in_time(record.means(series.omega, first, stretches)),
+            estimate_in_time(record.means(series.kinetic, first, stretches))};
   if (runs_away(v)) return plain(Verdict::runaway, late);
   return plain(accelerates(v) ? Verdict::accelerating : Verdict::unsettled, late);
+}
+
+Flow joined(std::span<const Flow> starts) {
+  std::array<std::size_t, names.size()> count{};
+  for (const auto& start : starts) ++count[static_cast<std::size_t>(start.verdict)];
+  const auto most = static_cast<Verdict>(std::max_element(count.begin(), count.end()) - count.begin());
+  Flow flow{most, -INFINITY, {}, {}, {}};
+  const auto over = [&](Estimate Flow::*member) {
+    std::vector<double> means;
+    for (const auto& start : starts)
+      if (start.verdict == most) means.push_back((start.*member).mean);
+    return estimate_of(means);
+  };
+  for (const auto& start : starts)
+    if (start.verdict == most) flow.from = std::max(flow.from, start.from);
+  flow.v_x = over(&Flow::v_x);
+  flow.omega = over(&Flow::omega);
+  flow.kinetic = over(&Flow::kinetic);
+  return flow;
 }
 
 }  // namespace chute::measure

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "measure/estimate.hpp"
+#include "core/estimate.hpp"
 
 namespace chute::measure {
 
@@ -68,5 +68,9 @@ struct Flow {
 /// Errors are standard errors over twelve stretches, enlarged by √((1+r)/(1−r)) where neighbouring stretches
 /// are correlated, r > 0.
 Flow judge_flow(const FlowSeries& series, const FlowScales& scales);
+
+/// Several starts together: the verdict that most of them have, and the means over those with the errors of their
+/// scatter, from when the last of them settled.
+Flow joined(std::span<const Flow> starts);
 
 }  // namespace chute::measure

@@ -1,150 +1,30 @@
 #include "run/facts.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "run/engine_factory.hpp"
-#include "scene/contact.hpp"
+#include "scene/world.hpp"
 
 namespace chute::run {
 
-namespace {
-
-/// Collects the facts about one contact.
-class ContactFacts {
- public:
-  ContactFacts(const scene::ContactSpec& spec, scene::Units units, const NamedPair& first)
-      : spec_(spec),
-        pair_(first.pair),
-        contact_(spec.laws(first.pair)),
-        impact_(scene::reference_impact(spec, first.pair)),
-        si_(units == scene::Units::si) {
-    if (const auto v = scene::at_velocity(spec)) at_ = fmt::format(" at {:.4g} {}", *v, speed());
-  }
-
-  std::vector<Fact> take() { return std::move(list_); }
-
-  void impact_of(const NamedPair& who) {
-    const auto impact = laws::normal_impact(contact_, scene::at_velocity(spec_).value_or(1), who.pair);
-    add("t_n" + who.suffix, impact.contact_time, si_ ? "s" : "sqrt(d/g)",
-        "contact time of " + who.name + at_);
-    add("e_n" + who.suffix, impact.restitution, "", "restitution of " + who.name + at_);
-  }
-
-  /// Stiffness, damping, and how the restitution depends on the velocity.
-  void normal() {
-    std::visit(
-        [&]<class Law>(const Law& law) {
-          add("k_n", law.stiffness(pair_), in(Law::stiffness_unit), "normal stiffness of that pair");
-          if constexpr (requires { Law::damping_unit; })
-            add("gamma_n", law.damping(pair_), in(Law::damping_unit), "normal damping of that pair");
-        },
-        contact_.normal);
-    if (const auto v = scene::at_velocity(spec_))
-      for (const double part : {0.1, 0.01})
-        add(fmt::format("e_n {:.3g}", part * *v), laws::normal_impact(contact_, part * *v, pair_).restitution,
-            "", fmt::format("restitution of that pair at {:.4g} {}", part * *v, speed()));
-  }
-
-  void time_step(double dt) {
-    add("dt", dt, si_ ? "s" : "sqrt(d/g)", "time step");
-    add("t_n/dt", impact_.contact_time / dt, "", "steps per contact; 50 is usual, under 20 is rough");
-  }
-
-  /// What the tangential law comes to, for that impact and that time step.
-  void shear(double dt) {
-    std::visit(
-        [&]<class Law>(const Law& law) {
-          if constexpr (requires { law.effective_viscosity(pair_); })
-            // Slip decays at γ_s (1/m_eff + R²/I for each grain): 7/2 for solid spheres
-            add("gamma_s dt 7/2m", law.effective_viscosity(pair_) * 3.5 / pair_.m_eff * dt, "",
-                "decay of slip in one step; above about 1 the integration is unstable");
-          else if constexpr (requires { law.stiffness_at(impact_.deepest, pair_); })
-            half_period(
-                law.stiffness_at(impact_.deepest, pair_), requires { Law::hertz_spring; });
-        },
-        contact_.shear);
-    if (const auto* saw = std::get_if<laws::SawTooth>(&contact_.shear))
-      add("zeta_0/dt", saw->length / dt, speed(),
-          "slip that crosses a tooth in one step; slips have to be much slower");
-  }
-
-  void brake_failure(double reach) {
-    const double half_period = std::visit(
-        [&]<class Law>(const Law& law) {
-          return requires { Law::hertz_spring; }
-          ? impact_.contact_time : std::numbers::pi* std::sqrt(pair_.m_eff / law.stiffness(pair_));
-        },
-        contact_.normal);
-    add("v_bf", 2 * reach * std::cos(std::asin(0.999)) / half_period, speed(),
-        "brake failure above this velocity at sin(vartheta) = 0.999 (2.16, corrected)");
-  }
-
- private:
-  const scene::ContactSpec& spec_;
-  laws::Pair pair_;
-  laws::Contact contact_;
-  laws::NormalImpact impact_;
-  bool si_;
-  std::string at_;
-  std::vector<Fact> list_;
-
-  std::string in(laws::UnitName unit) const { return std::string(si_ ? unit.si : unit.reduced); }
-  std::string speed() const { return si_ ? "m/s" : "sqrt(gd)"; }
-  void add(std::string name, double value, std::string unit, std::string meaning) {
-    list_.push_back({std::move(name), value, std::move(unit), std::move(meaning)});
-  }
-  /// (3.15) with m_eff and solid spheres
-  void half_period(double stiffness, bool with_depth) {
-    const double t_s = std::numbers::pi / std::sqrt(3.5 * stiffness / pair_.m_eff);
-    add("k_s", stiffness, in(laws::linear_stiffness_unit),
-        with_depth ? "tangential stiffness at the deepest overlap of that impact"
-                   : "tangential stiffness of that pair");
-    add("t_s/t_n", t_s / impact_.contact_time, "", "tangential half period (3.15) over the contact time");
-  }
-};
-
-}  // namespace
-
-std::vector<Fact> contact_facts(const scene::ContactSpec& contact, scene::Units units,
-                                const std::vector<NamedPair>& pairs, double time_step) {
-  ContactFacts facts(contact, units, pairs.front());
-  for (const auto& pair : pairs) facts.impact_of(pair);
-  facts.normal();
-  facts.time_step(time_step);
-  facts.shear(time_step);
-  facts.brake_failure(pairs.front().reach);
-  return facts.take();
-}
-
 std::vector<Fact> facts(const scene::Scene& scene) {
-  const bool bed = scene.bed.kind != scene::Bed::Kind::none, many = scene.interacting();
-  const double d = scene.mean_diameter(), d_bed = scene.bed.diameter, dt = time_step(scene);
-  const double R = d / 2, r = d_bed / 2, steps = std::ceil(scene.duration / dt);
-
-  std::vector<Fact> list{
-      {"theta", scene.incline.theta() * 180 / std::numbers::pi, "deg", "inclination"},
-      {"m", scene.mean_mass(), scene.units == scene::Units::si ? "kg" : "m", "mass of a mean grain"}};
-  std::vector<NamedPair> pairs;
-  if (many) pairs.push_back({"", "two mean grains", scene.reference_pair(), d});
-  if (bed)
-    pairs.push_back({many ? " bed" : "", many ? "a mean grain with the bed" : "the grain with the bed",
-                     laws::Pair(scene.mean_mass(), R * r / (R + r)), R + r});
-  if (pairs.empty()) pairs.push_back({"", "the grain with another", scene.reference_pair(), R + r});
-  const auto contact = contact_facts(scene.contact, scene.units, pairs, dt);
-  list.insert(list.end(), contact.begin(), contact.end());
-  if (bed) {
-    const double gap = scene.bed.kind == scene::Bed::Kind::row ? scene.bed.gap : scene.bed.gap_max;
+  const auto setting = scene::setting_of(scene);
+  const double d = setting.mean_diameter, d_bed = setting.bead_diameter;
+  std::vector<Fact> list{{"theta", setting.theta * 180 / std::numbers::pi, "deg", "inclination"},
+                         {"m", setting.mean_mass, setting.in("kg", "m"), "mass of a mean grain"}};
+  const auto own = scene.engine->facts(setting);
+  list.insert(list.end(), own.begin(), own.end());
+  if (setting.bead_spacing > 0) {
+    const double gap = setting.widest_spacing / d_bed - 1;
     list.push_back({"Phi", d / d_bed, "", "size ratio R/r"});
     list.push_back({"gamma_max", std::asin(std::min(1.0, (1 + gap) / (1 + d / d_bed))), "rad",
-                    "largest impact angle on the bed (4.21)"});
+                    "largest impact angle on the bed, (4.21)"});
   }
-  list.push_back({"steps", steps, "", "time steps of the run"});
-  // measured on one core of a 2020s server, 300 grains; a single grain is bound by the cost of a step
-  const double seconds = steps * (0.25e-6 + static_cast<double>(scene.grains.count) / 120e6);
-  list.push_back({"cost", seconds, "s", "rough time on one core"});
+  const double steps = std::ceil(scene.duration / scene.engine->step(setting));
+  list.push_back({"steps", steps, "", "steps of the run"});
+  if (const double cost = scene.engine->seconds_per_step(setting); cost > 0)
+    list.push_back({"cost", steps * cost, "s", "rough time on one core"});
   return list;
 }
 

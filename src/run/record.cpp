@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/atomic_file.hpp"
+#include "common/hash.hpp"
 #include "run/flow.hpp"
 #include "run/version.hpp"
 
@@ -15,12 +16,13 @@ namespace chute::run {
 std::string RunRecord::now() { return fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr))); }
 
 void write_record(const std::filesystem::path& file, const RunRecord& r,
-                  const std::optional<measure::Flow>& flow) {
+                  const std::optional<measure::Flow>& flow, std::span<const measure::Flow> starts) {
   utsname machine{};
   uname(&machine);
   nlohmann::ordered_json json{{"program", "chute"},
                               {"version", version},
                               {"commit", commit},
+                              {"build", build_hash()},
                               {"command", r.command},
                               {"seed", r.seed},
                               {"threads", r.threads},
@@ -31,9 +33,12 @@ void write_record(const std::filesystem::path& file, const RunRecord& r,
                               {"steps", r.steps},
                               {"time_step", r.time_step},
                               {"time", r.time},
+                              {"clock", r.clock},
                               {"end", r.end}};
   if (!r.why.empty()) json["why"] = r.why;
   if (flow) json["flow"] = to_json(*flow);
+  if (starts.size() > 1)
+    for (const auto& start : starts) json["starts"].push_back(to_json(start));
   // a command line may hold any bytes
   write_atomically(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "measure/steadiness.hpp"
@@ -17,14 +18,15 @@ struct RunRecord {
   double seconds = 0;
   std::int64_t steps = 0;
   double time_step = 0, time = 0;
+  std::string clock = "time";  ///< what `time` counts
   std::string end, why;  ///< `why` is left out if empty
 
   /// This moment in universal time, 2026-01-31T12:00:00Z.
   static std::string now();
 };
 
-/// Writes it, with what became of the flow if that is known.
+/// Writes it, with what became of the flow if that is known, and of each of several independent starts.
 void write_record(const std::filesystem::path& file, const RunRecord& record,
-                  const std::optional<measure::Flow>& flow = {});
+                  const std::optional<measure::Flow>& flow = {}, std::span<const measure::Flow> starts = {});
 
 }  // namespace chute::run

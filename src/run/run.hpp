@@ -20,6 +20,7 @@ struct RunOptions {
 struct RunResult {
   bool finished;       ///< false: stopped by `progress`; resume to go on
   std::int64_t steps;  ///< done by this call
+  std::size_t grains;  ///< that move
   double seconds;      ///< wall time of this call
 };
 

@@ -6,24 +6,14 @@
 #include <array>
 
 #include "common/error.hpp"
+#include "measure/observer.hpp"
 
 namespace chute::run {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array own_names{"scene.toml",
-                               "run.json",
-                               "frames.pvd",
-                               "frames",
-                               "contacts",
-                               "impacts.vtp",
-                               "series.csv",
-                               "profiles.csv",
-                               "profiles_fine.csv",
-                               "fields.csv",
-                               "impact_histograms.csv",
-                               "result.csv",
-                               "checkpoint"};
+/// What a run leaves besides what observers write (and experiments: result.csv).
+constexpr std::array own_names{"scene.toml", "run.json", "result.csv", "checkpoint"};
 
 bool is_run(const fs::path& path) { return fs::exists(path / "scene.toml") && fs::exists(path / "run.json"); }
 
@@ -43,8 +33,10 @@ RunDirectory::RunDirectory(fs::path path, Existing existing) : path_(std::move(p
       resumes_ = fs::exists(path_ / "checkpoint");
       if (!resumes_) refuse("has no checkpoint to resume from; give --force to start again");
     }
-    if (used && existing == Existing::replace)
+    if (used && existing == Existing::replace) {
       for (const char* name : own_names) fs::remove_all(path_ / name);
+      for (const auto& name : measure::all_files()) fs::remove_all(path_ / name);
+    }
     fs::create_directories(path_);
   } catch (const fs::filesystem_error& error) {
     throw WorkError(fmt::format("{}: cannot write: {}", path_.string(), error.code().message()));

@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "common/atomic_file.hpp"
+
 namespace chute::sweep {
+
+Base::Base(std::filesystem::path scene_file, std::vector<std::string> settings)
+    : file(std::move(scene_file)), set(std::move(settings)), text(read_file(file)) {}
 
 scene::Scene Base::scene(const std::vector<std::string>& more) const {
   auto settings = set;
   settings.push_back("sweep=");  // the grid itself is no part of a run
   settings.insert(settings.end(), more.begin(), more.end());
-  auto scene = scene::read_scene(file, settings);
-  scene.output.frames.reset();
-  scene.output.impacts.reset();
-  scene.output.contacts = false;
+  auto scene = scene::parse_scene(text, file.string(), settings);
+  scene.drop_outputs();
   return scene;
 }
 

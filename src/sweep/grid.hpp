@@ -9,12 +9,16 @@
 
 namespace chute::sweep {
 
-/// A scene file and what is changed in it: key=value.
+/// A scene file and what is changed in it: key=value. The file is read once: it may change while a sweep goes on.
 struct Base {
   std::filesystem::path file;
   std::vector<std::string> set;
+  std::string text;
 
-  /// With further changes on top. Frames and impacts are left out: a sweep keeps none.
+  /// InputError if the file cannot be read.
+  explicit Base(std::filesystem::path scene_file, std::vector<std::string> settings = {});
+
+  /// With further changes on top. All outputs but the series are left out: a sweep keeps none.
   scene::Scene scene(const std::vector<std::string>& more) const;
   Base with(const std::vector<std::string>& more) const;
 };

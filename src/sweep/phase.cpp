@@ -7,17 +7,13 @@
 namespace chute::sweep {
 namespace {
 
-using measure::Estimate;
 using measure::Verdict;
 
 Estimate mean_over(const std::vector<Estimate>& starts) {
-  if (starts.empty()) return {NAN, {}};
   if (starts.size() == 1) return starts[0];
-  const auto n = static_cast<double>(starts.size());
-  double mean = 0, square = 0;
-  for (const auto& s : starts) mean += s.mean / n;
-  for (const auto& s : starts) square += (s.mean - mean) * (s.mean - mean);
-  return {mean, std::sqrt(square / (n - 1) / n)};
+  std::vector<double> means;
+  for (const auto& s : starts) means.push_back(s.mean);
+  return estimate_of(means);
 }
 
 double middle_of(std::vector<double>& values) {

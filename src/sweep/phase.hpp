@@ -14,10 +14,10 @@ namespace chute::sweep {
 struct Tally {
   std::array<std::size_t, 5> of{};  ///< starts by verdict
   std::size_t starts = 0;
-  measure::Estimate v_x, omega, kinetic;  ///< over the steady starts
+  Estimate v_x, omega, kinetic;  ///< over the steady starts
   /// Median of v_x over the starts that still move; NaN if none does. Its error is that of a gaussian sample
   /// with the same median deviation: 1.2533 · 1.4826 · MAD / √n.
-  measure::Estimate median{};
+  Estimate median{};
 
   /// Starts within a tenth of the median that neither stopped nor left for good: they share one mean
   /// velocity.
@@ -41,7 +41,7 @@ Phase phase_of(std::span<const Tally> launches, double alike);
 
 /// Where the phase changes along one parameter; the error is half of the bracket that is left.
 struct Boundaries {
-  std::optional<measure::Estimate> AB, BC;  ///< empty: not within the range
+  std::optional<Estimate> AB, BC;  ///< empty: not within the range
 };
 
 /// Looks at the given values of the parameter in turn (they ascend), and bisects the first steps from A to

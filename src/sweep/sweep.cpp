@@ -38,7 +38,7 @@ class Sweep {
       mine.push_back(k);
     side_by_side(mine.size(), options_.jobs, options_.progress, [&](std::size_t k, const Report& report) {
       if (spec_.boundary)
-        boundaries_at(places_[mine[k]], report);
+        boundaries_at(places_[mine[k]], *store_, report);
       else
         store_->get(scene_at(mine[k] / seeds(), mine[k] % seeds()), report);
     });
@@ -57,9 +57,8 @@ class Sweep {
   scene::Scene scene_at(std::size_t place, std::size_t seed) const {
     return base_.with(places_[place].set).scene({fmt::format("seed={}", seed + 1)});
   }
-  Boundaries boundaries_at(const Place& place, const Report& progress) const {
-    return boundaries_of(base_.with(place.set), *spec_.boundary, Wanted::both, spec_.seeds, *store_,
-                         progress);
+  Boundaries boundaries_at(const Place& place, const PointStore& store, const Report& progress) const {
+    return boundaries_of(base_.with(place.set), *spec_.boundary, Wanted::both, spec_.seeds, store, progress);
   }
   fs::path file(const char* name) const { return options_.directory / name; }
 
@@ -114,10 +113,10 @@ class Sweep {
     for (std::size_t p = 0; p < places_.size(); ++p) {
       std::vector<measure::Flow> starts;
       for (std::size_t s = 0; s < seeds(); ++s) {
-        const auto outcome = store_->find(scene_at(p, s));
-        if (!outcome) return false;
-        for (std::size_t k = 0; k < outcome->starts.size(); ++k) {
-          const auto& f = outcome->starts[k];
+        const auto followed = store_->find(scene_at(p, s));
+        if (!followed) return false;
+        for (std::size_t k = 0; k < followed->starts.size(); ++k) {
+          const auto& f = followed->starts[k];
           starts.push_back(f);
           each.row({measure::name(f.verdict)},
                    cells(places_[p], {double(s + 1), double(k), f.from, f.v_x.mean, f.v_x.error, f.omega.mean,
@@ -143,17 +142,17 @@ class Sweep {
                              "of the bracket; empty: not within the range",
                              spec_.boundary->axis.key)),
         columns({"AB", "AB_err", "BC", "BC_err"}));
-    const auto cell = [](const std::optional<measure::Estimate>& e, bool error) -> io::Csv::Cell {
+    const auto cell = [](const std::optional<Estimate>& e, bool error) -> io::Csv::Cell {
       if (!e) return {};
       return error ? *e->error : e->mean;
     };
     try {
       for (const auto& place : places_) {
-        const auto b = boundaries_at(place, [](double) { return false; });
+        const auto b = boundaries_at(place, store_->only_known(), [](double) { return true; });
         table.row(cells(place, {cell(b.AB, false), cell(b.AB, true), cell(b.BC, false), cell(b.BC, true)}));
       }
-    } catch (const WorkError&) {
-      return false;  // it wanted to simulate
+    } catch (const PointStore::PointIsMissing&) {
+      return false;  // another shard's
     }
     write_atomically(file("boundaries.csv"), table.text());
     return true;

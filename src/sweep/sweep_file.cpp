@@ -1,6 +1,5 @@
 #include "sweep/sweep_file.hpp"
 
-#include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 
@@ -19,7 +18,7 @@ void describe(Archive& a, Section& section) {
 }  // namespace
 
 static toml::table read_table(const Base& base) {
-  auto table = parse_toml(read_file(base.file), base.file.string());
+  auto table = parse_toml(base.text, base.file.string());
   for (const auto& setting : base.set) set_by_path(table, setting);
   return table;
 }

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+
+#include "core/estimate.hpp"
+#include "core/frame.hpp"
 
 namespace chute::theory {
 
@@ -49,7 +53,7 @@ std::optional<Hop> StochasticWalk::hop(Random& random) {
     return {};
   }
   hop.time = model_.flight_time(hop.after, hop.gamma);
-  const Vec<2> g{{model_.gravity * std::sin(model_.theta), -model_.gravity * std::cos(model_.theta)}};
+  const auto g = gravity_on_incline<2>(model_.gravity, model_.theta);
   hop.way = hop.time * (hop.after + (hop.time / 2) * g);
   velocity_ = hop.after + hop.time * g;
   return hop;
@@ -77,9 +81,7 @@ StochasticMean mean_velocity(const StochasticModel& model, std::uint64_t seed, s
     if (b >= transient) time += block_time, way += block_way;
   }
   mean.velocity = way / time;
-  double square = 0;
-  for (std::size_t b = transient; b < blocks; ++b) square += std::pow(velocity[b] - mean.velocity, 2);
-  mean.error = std::sqrt(square / (blocks - transient - 1) / (blocks - transient));
+  mean.error = estimate_of(std::span(velocity).subspan(transient)).error.value();
   return mean;
 }
 

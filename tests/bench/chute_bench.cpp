@@ -10,9 +10,9 @@
 #include <map>
 
 #include "core/random.hpp"
-#include "run/engine_factory.hpp"
-#include "scene/start.hpp"
-#include "soft/soft_engine.hpp"
+#include "engines/soft/soft_method.hpp"
+#include "scene/world.hpp"
+#include "engines/soft/soft_engine.hpp"
 
 namespace {
 
@@ -26,22 +26,19 @@ scene::Scene flow(std::int64_t grains) {
       {"grains.count=" + std::to_string(grains), "bed.count=" + std::to_string(grains / 10)});
 }
 
-/// As run::make_engine, with a choice of the instruction set.
-soft::SoftSetup<2> setup_of(const scene::Scene& scene, const Domain<2>& domain, Isa isa) {
-  const double theta = scene.incline.theta(), g = scene.incline.gravity;
-  soft::SoftSetup<2> setup;
-  setup.domain = domain;
-  setup.gravity = {{g * std::sin(theta), -g * std::cos(theta)}};
-  setup.laws = scene.contact.laws(scene.reference_pair());
-  setup.time_step = run::time_step(scene);
-  setup.skins = soft::usual_skins<2>(scene.mean_diameter());
+/// As the method makes it, with a choice of the instruction set.
+soft::SoftSetup<2> setup_of(const scene::Scene& scene, const Surroundings<2>& around, Isa isa) {
+  const auto setting = scene::setting_of(scene);
+  soft::SoftSetup<2> setup{around};
+  setup.laws = scene.contact.laws(setting.reference());
+  setup.time_step = scene.engine->step(setting);
+  setup.skins = soft::usual_skins<2>(setting.mean_diameter);
   setup.isa = isa;
   return setup;
 }
 soft::SoftEngine<2> engine_of(const scene::Scene& scene, Isa isa) {
-  auto start = scene::make_start(scene);
-  const auto setup = setup_of(scene, start.domain, isa);
-  return {std::move(start.grains), setup};
+  auto world = scene::make_world<2>(scene);
+  return {std::move(world.grains), setup_of(scene, world.surroundings(), isa)};
 }
 
 /// The settled flow, made once for each size: it is the same bytes with every instruction set.
@@ -81,10 +78,10 @@ Grains<2> copies(const Grains<2>& tile, double length, std::int64_t count) {
 void steps(benchmark::State& state, std::int64_t grains, Isa isa, int threads) {
   const auto tile = std::min<std::int64_t>(grains, 3000), count = grains / tile;
   const auto scene = flow(tile);
-  auto domain = scene::make_start(scene).domain;
-  const double length = domain.length[0];
-  domain.length[0] *= static_cast<double>(count);
-  auto setup = setup_of(scene, domain, isa);
+  Surroundings<2> around = scene::make_world<2>(scene);
+  const double length = around.domain.length[0];
+  around.domain.length[0] *= static_cast<double>(count);
+  auto setup = setup_of(scene, around, isa);
   setup.threads = threads;
   soft::SoftEngine<2> engine(copies(settled(tile), length, count), setup);
   const std::int64_t slice = std::max<std::int64_t>(1024, 300'000 / grains);

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "event/event_engine.hpp"
+#include "engines/event/event_engine.hpp"
 
 /// A few hard grains by hand, for tests that know the answer.
 namespace chute::test {

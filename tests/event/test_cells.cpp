@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/random.hpp"
-#include "event/cells.hpp"
+#include "engines/event/cells.hpp"
 
 using namespace chute;
 using namespace chute::event;

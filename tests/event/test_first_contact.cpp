@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/random.hpp"
-#include "event/first_contact.hpp"
+#include "engines/event/first_contact.hpp"
 
 using namespace chute;
 using chute::event::Approach;

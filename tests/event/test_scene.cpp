@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
-#include "run/engine_factory.hpp"
+#include "../runs/make_engine.hpp"
 #include "theory/stochastic.hpp"
 
 using namespace chute;
@@ -33,8 +33,8 @@ friction = 0.13
 duration = 10
 )";
 
-run::Made make(const std::vector<std::string>& settings) {
-  return run::make_engine(scene::parse_scene(ball, "ball.toml", settings));
+test::Made make(const std::vector<std::string>& settings) {
+  return test::make_engine(scene::parse_scene(ball, "ball.toml", settings));
 }
 double mean_velocity(Engine& engine) {
   const auto at = [&](double t) {

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "event/ball_on_line.hpp"
+#include "ball_on_line.hpp"
 #include "theory/rolling.hpp"
 
 using namespace chute;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "soft/soft_engine.hpp"
+#include "engines/soft/soft_engine.hpp"
 
 /// Many random impacts of two spheres at once: pairs far apart from each other in one engine.
 namespace chute::test {
@@ -26,7 +26,7 @@ class ManyImpacts {
   /// sizes, masses, spins and obliqueness, from head-on to tan ϑ = 1000; in every fourth the second grain is
   /// fixed. The stiffness of `law` should suit masses and speeds of about 1. `steps`: per shortest contact
   /// time.
-  double worst_gain(const laws::Contact& law, std::size_t count, double steps) {
+  double worst_gain(const laws::ContactLaws& law, std::size_t count, double steps) {
     constexpr std::size_t batch = 2000;
     double worst = 0;
     for (std::size_t done = 0; done < count; done += batch) worst = std::max(worst, run(law, batch, steps));
@@ -44,7 +44,7 @@ class ManyImpacts {
     return (1 / norm(a)) * a;
   }
 
-  double run(const laws::Contact& law, std::size_t pairs, double steps) {
+  double run(const laws::ContactLaws& law, std::size_t pairs, double steps) {
     struct Pair {
       double m_i, m_j, R_i, R_j;
       bool fixed;

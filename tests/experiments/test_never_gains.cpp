@@ -51,21 +51,21 @@ laws::Normal normal(bool hertz, bool elastic) {
 TEST_CASE("10^5 random impacts with a dissipative normal force never gain energy") {
   for (const auto& list : {honest, generous})
     for (const auto& [name, law, hertz, known] : list) {
-      const laws::Contact contact{normal(hertz, false), law};
+      const laws::ContactLaws contact{normal(hertz, false), law};
       const double flat = ManyImpacts<2>(1).worst_gain(contact, 60000, 60);
       const double deep = ManyImpacts<3>(2).worst_gain(contact, 40000, 60);
       WARN(name << ": largest energy after over before, 2D " << flat << ", 3D " << deep);
       CHECK(flat < 1 + 1e-6);
       CHECK(deep < 1 + 1e-6);
     }
-  const laws::Contact hysteretic{laws::WaltonBraun::from_restitution(k, 0.8),
+  const laws::ContactLaws hysteretic{laws::WaltonBraun::from_restitution(k, 0.8),
                                  laws::CundallStrack{k_s, {0.5, true}}};
   CHECK(ManyImpacts<2>(1).worst_gain(hysteretic, 20000, 60) < 1 + 1e-6);
 }
 
 TEST_CASE("With an elastic normal force, nothing is gained but the error of the integration") {
   for (const auto& [name, law, hertz, known] : honest) {
-    const laws::Contact contact{normal(hertz, true), law};
+    const laws::ContactLaws contact{normal(hertz, true), law};
     const double coarse = ManyImpacts<2>(1).worst_gain(contact, 20000, 100) - 1;
     const double fine = ManyImpacts<2>(1).worst_gain(contact, 20000, 400) - 1;
     WARN(name << ": gain " << coarse << " with 100 steps per contact, " << fine << " with 400");

@@ -42,7 +42,7 @@ double truth(double psi, double v_n,
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 /// The slow impact of the engine, in the same limit.
-double simulated(double psi, const laws::Contact& law, double v_n) {
+double simulated(double psi, const laws::ContactLaws& law, double v_n) {
   return collide(Acetate::meet(law, v_n * std::sqrt(1 + psi * psi), std::atan(psi), 10000)).psi_after;
 }
 
@@ -125,7 +125,7 @@ struct Turned {
 };
 
 template <int D>
-BinaryImpact<D> example(const laws::Contact& law) {
+BinaryImpact<D> example(const laws::ContactLaws& law) {
   BinaryImpact<D> impact;
   impact.laws = law;
   impact.steps = 300;
@@ -170,7 +170,7 @@ Vec<turns<D>> mirror_spin(Vec<turns<D>> w) {
 }
 
 template <int D>
-void check_frames(const laws::Contact& law) {
+void check_frames(const laws::ContactLaws& law) {
   const auto impact = example<D>(law);
   const auto base = collide(impact);
   const auto close = [](const auto& a, const auto& b) { return norm(a - b) < 1e-8; };
@@ -236,7 +236,7 @@ const laws::Normal spring = laws::SpringDashpot::from_restitution(1e5, 0.8);
 const laws::Normal hertz_law =
     laws::HertzKuwabaraKono::from_damping(laws::Hertz::from_material(1e6, 0.3), 500, laws::MassScaling::none);
 const laws::PairCoefficient k_s{3e4, 0, 0, 0}, k_hertz_s{8e5, 0, 0, 0};
-const std::vector<laws::Contact> all_laws = {
+const std::vector<laws::ContactLaws> all_laws = {
     {spring, laws::Frictionless{}},
     {spring, laws::RegularisedCoulomb{20, 0.3, laws::MassScaling::none}},
     {spring, laws::Viscous{20, laws::MassScaling::damping}},

@@ -9,7 +9,7 @@ import unittest
 from figure_csv import QuickFigures
 
 chute = sys.argv[1]
-FIGURES = ["fig-4-08", "fig-4-09", "fig-4-10", "fig-4-11", "fig-4-12", "fig-4-13", "fig-4-22"]
+FIGURES = ["fig-4-08", "fig-4-09", "fig-4-10", "fig-4-11", "fig-4-12", "fig-4-13", "fig-4-21", "fig-4-22"]
 made = None
 
 
@@ -47,7 +47,28 @@ def local_scatter(points, neighbours=16):
     return statistics.median(across)
 
 
+def slope(points):
+    """Of the least-squares line of y against x."""
+    mx, my = (statistics.fmean(p[k] for p in points) for k in (0, 1))
+    return sum((p[0] - mx) * (p[1] - my) for p in points) / sum((p[0] - mx) ** 2 for p in points)
+
+
 class OneBall(unittest.TestCase):
+    def test_4_21_no_terminal_velocity(self):
+        """In region C v_x grows without end, and v_z rises and falls on the way up."""
+        c = curves("fig-4-21")
+        for panel, sine in (("a", 0.15), ("b", 0.3)):
+            v_x, v_z = c[panel, "v_x"], c[panel, "v_z"]
+            self.assertEqual(len(v_x), len(v_z))
+            self.assertGreater(len(v_x), 30)
+            for part in ([p for p in v_x if p[0] < 10], [p for p in v_x if p[0] >= 10]):
+                self.assertGreater(slope(part), 0.03 * 9.81 * sine)
+            self.assertLess(slope(v_x), 9.81 * sine)
+            self.assertGreater(slope(v_z), 0)
+            steps = [(before[1], after[1]) for before, after in zip(v_z, v_z[1:])]
+            self.assertGreater(sum(after < before for before, after in steps), len(v_z) / 4)
+            self.assertGreater(sum(after > 1.5 * before for before, after in steps), 3)
+
     def test_4_08_clusters(self):
         c, most = curves("fig-4-08"), gamma_max(4)
         v_n, v_t = c["", "v_n"], c["", "v_t"]

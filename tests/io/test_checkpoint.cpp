@@ -11,10 +11,11 @@ using namespace chute::test;
 namespace {
 
 const std::string scene = "title = \"a scene\"\n";
+const std::string grains = "grains as VTK has them";
 const std::string state("grains \0 and so on", 18);
 
 std::string saved(const Folder& folder) {
-  io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream& out) { out << state; });
+  io::write_checkpoint(folder / "checkpoint", scene, grains, [](std::ostream& out) { out << state; });
   return content(folder / "checkpoint");
 }
 std::string refused(const Folder& folder, const std::string& bytes, const std::string& of = scene) {
@@ -28,13 +29,14 @@ TEST_CASE("a checkpoint gives back what was saved") {
   const Folder folder;
   saved(folder);
   CHECK(io::read_checkpoint(folder / "checkpoint", scene) == state);
-  io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream&) {});
+  CHECK(io::read_checkpoint_grains(folder / "checkpoint") == grains);
+  io::write_checkpoint(folder / "checkpoint", scene, grains, [](std::ostream&) {});
   CHECK(io::read_checkpoint(folder / "checkpoint", scene).empty());
 }
 
 TEST_CASE("empty arrays, which have no address, do not disturb the sum") {
   const Folder folder;
-  io::write_checkpoint(folder / "checkpoint", scene, [](std::ostream& out) {
+  io::write_checkpoint(folder / "checkpoint", scene, grains, [](std::ostream& out) {
     out << state;
     out.rdbuf()->sputn(nullptr, 0);
     out << state;
@@ -88,7 +90,7 @@ TEST_CASE("a save that fails leaves the old checkpoint whole and nothing beside 
   const Folder folder;
   const auto whole = saved(folder);
   struct Oops {};
-  CHECK_THROWS_AS(io::write_checkpoint(folder / "checkpoint", scene,
+  CHECK_THROWS_AS(io::write_checkpoint(folder / "checkpoint", scene, grains,
                                        [](std::ostream& out) {
                                          out << "half";
                                          throw Oops{};

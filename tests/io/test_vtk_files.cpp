@@ -11,6 +11,8 @@
 #include <catch2/catch.hpp>
 
 #include "folder.hpp"
+#include "common/error.hpp"
+#include "io/grains_file.hpp"
 #include "io/vtk_files.hpp"
 
 using namespace chute;
@@ -29,27 +31,30 @@ vtkSmartPointer<vtkPolyData> read_back(const std::string& bytes) {
   return reader->GetOutput();
 }
 
-struct Sample2D {
-  std::vector<double> x{1.25, -2, 3}, y{0, 1, 2.5}, vx{1, 2, 0}, vy{-1, 0.1, 0}, fx{5, 6, 7}, fy{8, 9, 10},
-      spin{-3, 4, 0}, angle{0.5, -7, 0}, radius{0.5, 0.25, 1}, mass{1, 2, 3}, inertia{1, 1, 1};
-  GrainsView view() const {
-    GrainsView v;
-    v.dimensions = 2;
-    v.time = 1.5;
-    v.moving = 2;
-    v.position = {x, y, std::span<const double>{}};
-    v.velocity = {vx, vy, std::span<const double>{}};
-    v.force = {fx, fy, std::span<const double>{}};
-    v.spin[0] = spin;
-    v.angle[0] = angle;
-    v.radius = radius;
-    v.mass = mass;
-    v.inertia = inertia;
-    return v;
+/// Two moving discs and a fixed one, and a view of them.
+template <int D>
+struct Sample {
+  Grains<D> grains;
+  std::array<Array, D> force;
+  Domain<D> domain;
+  Sample() {
+    const double place[][3] = {{1.25, 0, 9}, {-2, 1, 8}, {3, 2.5, 7}}, velocity[][3] = {{1, -1, 9}, {2, 0.1, 8}, {0, 0, 7}};
+    const double radius[] = {0.5, 0.25, 1};
+    for (int i = 0; i < 3; ++i) {
+      Vec<D> r;
+      for (int k = 0; k < D; ++k) r[k] = place[i][k];
+      grains.add(r, radius[i], i + 1, 1, i < 2);
+      for (std::size_t k = 0; k < D; ++k) grains.velocity[k].back() = velocity[i][k];
+      for (std::size_t k = 0; k < turns<D>; ++k) grains.spin[k].back() = i - 3.0 + 10.0 * static_cast<double>(k);
+      for (std::size_t k = 0; k < orientation_numbers<D>; ++k) grains.orientation[k].back() = 0.5 * i - static_cast<double>(k);
+      grains.material.back() = 7 - i;
+      for (std::size_t k = 0; k < D; ++k) force[k].push_back(5 + i + 3.0 * static_cast<double>(k));
+    }
   }
+  GrainsView view() const { return view_of(grains, force, domain, 1.5); }
 };
 
-const io::RunFacts facts{"SI", {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}};
+const io::RunFacts facts{"SI", 2, {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}, {}, {}};
 
 void check_facts(vtkPolyData* data) {
   auto* field = data->GetFieldData();
@@ -64,8 +69,9 @@ void check_facts(vtkPolyData* data) {
 
 }  // namespace
 
-TEST_CASE("2D grains come back from VTK as they were, to the bit") {
-  const Sample2D s;
+TEMPLATE_TEST_CASE_SIG("grains come back from VTK as they were, to the bit", "", ((int D), D), 2, 3) {
+  const Sample<D> s;
+  const auto& g = s.grains;
   const auto data = read_back(io::grains_vtp(s.view(), facts));
   REQUIRE(data->GetNumberOfPoints() == 3);
   CHECK(data->GetNumberOfVerts() == 3);
@@ -77,44 +83,55 @@ TEST_CASE("2D grains come back from VTK as they were, to the bit") {
       REQUIRE(arrays->GetArray(name));
       return arrays->GetArray(name)->GetComponent(id, k);
     };
-    CHECK(data->GetPoint(id)[0] == s.x[i]);
-    CHECK(data->GetPoint(id)[1] == s.y[i]);
-    CHECK(data->GetPoint(id)[2] == 0);
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      CHECK(data->GetPoint(id)[k] == (k < D ? g.position[axis % D][i] : 0));
+      CHECK(value("velocity", k) == (k < D ? g.velocity[axis % D][i] : 0));
+      CHECK(value("force", k) == (k < D ? s.force[axis % D][i] : 0));
+      CHECK(value("angular_velocity", k) == (D == 3 ? g.spin[axis % turns<D>][i] : k == 2 ? g.spin[0][i] : 0));
+    }
     CHECK(value("id") == i);
     CHECK(value("type") == (i < 2 ? 1 : 0));
-    CHECK(value("radius") == s.radius[i]);
-    CHECK(value("mass") == s.mass[i]);
-    CHECK(value("velocity", 0) == s.vx[i]);
-    CHECK(value("velocity", 1) == s.vy[i]);
-    CHECK(value("velocity", 2) == 0);
-    CHECK(value("angular_velocity", 0) == 0);
-    CHECK(value("angular_velocity", 1) == 0);
-    CHECK(value("angular_velocity", 2) == s.spin[i]);
-    CHECK(value("angle") == s.angle[i]);
-    CHECK(value("force", 0) == s.fx[i]);
-    CHECK(value("force", 1) == s.fy[i]);
-    CHECK(value("force", 2) == 0);
+    CHECK(value("radius") == g.radius[i]);
+    CHECK(value("mass") == g.mass[i]);
+    CHECK(value("material") == g.material[i]);
+    for (int k = 0; k < orientation_numbers<D>; ++k)
+      CHECK(value(D == 2 ? "angle" : "orientation", k) == g.orientation[static_cast<std::size_t>(k)][i]);
   }
+  CHECK((arrays->GetArray("angle") == nullptr) == (D == 3));
   CHECK(data->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0) == 1.5);
   check_facts(data);
 }
 
-TEST_CASE("3D grains keep their third components") {
-  Sample2D s;
-  const std::vector<double> z{9, 8, 7}, w0{1, 2, 3}, w1{4, 5, 6};
-  auto view = s.view();
-  view.dimensions = 3;
-  view.position[2] = view.velocity[2] = view.force[2] = z;
-  view.spin = {w0, w1, z};
-  const auto data = read_back(io::grains_vtp(view, facts));
-  for (vtkIdType i = 0; i < 3; ++i) {
-    CHECK(data->GetPoint(i)[2] == z[static_cast<std::size_t>(i)]);
-    auto* spin = data->GetPointData()->GetArray("angular_velocity");
-    CHECK(spin->GetComponent(i, 0) == w0[static_cast<std::size_t>(i)]);
-    CHECK(spin->GetComponent(i, 1) == w1[static_cast<std::size_t>(i)]);
-    CHECK(spin->GetComponent(i, 2) == z[static_cast<std::size_t>(i)]);
+TEMPLATE_TEST_CASE_SIG("a start reads the moving grains of a file as they were written", "", ((int D), D), 2, 3) {
+  const Sample<D> s;
+  const auto& g = s.grains;
+  const auto bytes = io::grains_vtp(s.view(), facts);
+  const auto read = io::parse_grains(bytes, "grains.vtp");
+  REQUIRE(read.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < D; ++k) {
+      CHECK(read[i].place[k] == g.position[k][i]);
+      CHECK(read[i].velocity[k] == g.velocity[k][i]);
+    }
+    CHECK(read[i].spin[2] == g.spin[turns<D> - 1][i]);
+    REQUIRE(read[i].orientation);
+    for (std::size_t k = 0; k < orientation_numbers<D>; ++k) CHECK((*read[i].orientation)[k] == g.orientation[k][i]);
+    CHECK(read[i].radius == g.radius[i]);
+    CHECK(read[i].mass == g.mass[i]);
+    CHECK(read[i].material == g.material[i]);
   }
-  CHECK(data->GetPointData()->GetArray("angle") == nullptr);
+}
+
+TEST_CASE("a file of grains that is damaged, or holds none, is refused in one line") {
+  const auto bytes = io::grains_vtp(Sample<2>().view(), facts);
+  for (const auto& damaged : {bytes.substr(0, bytes.size() / 2), std::string("no file of VTK's"), std::string()}) {
+    const auto says = message<InputError>([&] { io::parse_grains(damaged, "grains.vtp"); });
+    CHECK(says.starts_with("grains.vtp: "));
+    CHECK(says.find('\n') == says.npos);
+  }
+  CHECK(message<InputError>([&] { io::parse_grains(io::impacts_vtp({}, facts), "impacts.vtp"); })
+            .starts_with("impacts.vtp: no grains"));
 }
 
 TEST_CASE("impacts come back from VTK as they were") {
@@ -144,38 +161,68 @@ TEST_CASE("impacts come back from VTK as they were") {
   CHECK(read_back(io::impacts_vtp({}, facts))->GetNumberOfPoints() == 0);
 }
 
-TEST_CASE("contacts are lines between nearest images") {
-  Sample2D s;
-  s.x = {-0.9, 3.8, 1};
-  s.y = {1, 1, 1.5};
-  const std::vector<ContactRecord> contacts{{0, 1, 0.01, 5, -2}, {0, 2, 0.02, 6, 3}};
+TEST_CASE("contacts are lines along their branches, with all that they tell") {
+  const Sample<2> s;
+  std::vector<Contact> contacts(2);
+  contacts[0] = {0, 1, {1, 2, 0}, {0.6, 0.8, 0}, {-0.2, 1, 0}, 0.01, {3, 4, 0}, 5, -2, ContactState::slide};
+  contacts[1] = {1, wall_id(2), {1, 2, 3}, {0, -1, 0}, {0, -0.5, 0}, 0.02, {0, -6, 0}, 6, 3};
   const auto data = read_back(io::contacts_vtp(s.view(), contacts, facts));
   REQUIRE(data->GetNumberOfLines() == 2);
   auto* lines = data->GetLines();
   lines->InitTraversal();
   for (vtkIdType c = 0; c < 2; ++c) {
+    const auto& contact = contacts[static_cast<std::size_t>(c)];
     vtkIdType count = 0;
     const vtkIdType* ends = nullptr;
     lines->GetNextCell(count, ends);
     REQUIRE(count == 2);
-    const double from = data->GetPoint(ends[0])[0], to = data->GetPoint(ends[1])[0];
-    CHECK(from == -0.9);
-    CHECK(to == Approx(c == 0 ? 3.8 - 5 : 1));  // across the period, not through the whole domain
-    const auto& contact = contacts[static_cast<std::size_t>(c)];
-    const auto value = [&](const char* name) {
-      return data->GetCellData()->GetArray(name)->GetComponent(c, 0);
+    const auto value = [&](const char* name, int k = 0) {
+      INFO(name);
+      REQUIRE(data->GetCellData()->GetArray(name));
+      return data->GetCellData()->GetArray(name)->GetComponent(c, k);
     };
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      CHECK(data->GetPoint(ends[0])[k] == s.view().place(static_cast<std::size_t>(contact.a))[axis]);
+      CHECK(data->GetPoint(ends[1])[k] - data->GetPoint(ends[0])[k] == Approx(contact.branch[axis]));
+      CHECK(value("point", k) == contact.point[axis]);
+      CHECK(value("normal", k) == contact.normal[axis]);
+      CHECK(value("branch", k) == contact.branch[axis]);
+      CHECK(value("force", k) == contact.force[axis]);
+    }
+    CHECK(value("a") == static_cast<double>(contact.a));
+    CHECK(value("b") == static_cast<double>(contact.b));
     CHECK(value("normal_force") == contact.normal_force);
     CHECK(value("shear_force") == contact.shear_force);
     CHECK(value("overlap") == contact.overlap);
+    CHECK(value("state") == static_cast<int>(contact.state));
   }
   CHECK(data->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0) == 1.5);
   check_facts(data);
   CHECK(read_back(io::contacts_vtp(s.view(), {}, facts))->GetNumberOfLines() == 0);
 }
 
+TEST_CASE("a wall is drawn where it crosses the room") {
+  io::RunFacts room{"SI", 3, {}, {}, {{{0, 0, 1}, {0, 0, 1}}}, {0, 4, 0, 2, -1, 3}};
+  const auto flat = read_back(io::walls_vtp(room));
+  REQUIRE(flat->GetNumberOfPolys() == 1);
+  REQUIRE(flat->GetNumberOfPoints() == 4);
+  CHECK(flat->GetBounds()[0] == Approx(0).margin(1e-9));
+  CHECK(flat->GetBounds()[1] == Approx(4));
+  CHECK(flat->GetBounds()[3] == Approx(2));
+  CHECK(flat->GetBounds()[4] == Approx(1));
+  CHECK(flat->GetBounds()[5] == Approx(1));
+  room.walls = {{{0, 0, 9}, {0, 0, 1}}};  // not in the room
+  CHECK(read_back(io::walls_vtp(room))->GetNumberOfPolys() == 0);
+  const io::RunFacts plane{"SI", 2, {}, {}, {{{0, 0, 0}, {-0.6, 0.8, 0}}}, {0, 2, -5, 5, 0, 0}};
+  const auto line = read_back(io::walls_vtp(plane));
+  REQUIRE(line->GetNumberOfLines() == 1);
+  CHECK(line->GetBounds()[1] == Approx(2));
+  CHECK(line->GetBounds()[3] == Approx(1.5));
+}
+
 TEST_CASE("files are binary, compressed, and the same bytes each time") {
-  const Sample2D s;
+  const Sample<2> s;
   const auto bytes = io::grains_vtp(s.view(), facts);
   CHECK(bytes == io::grains_vtp(s.view(), facts));
   CHECK(bytes.find("format=\"appended\"") != bytes.npos);

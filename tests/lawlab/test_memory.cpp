@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "soft/soft_engine.hpp"
+#include "engines/soft/soft_engine.hpp"
 
 using namespace chute;
 
@@ -17,7 +17,7 @@ const laws::Normal hertz =
 
 struct Named {
   const char* name;
-  laws::Contact law;
+  laws::ContactLaws law;
 };
 const std::vector<Named> laws_with_memory = {
     {"cundall-strack", {spring, laws::CundallStrack{k_s, {0.5, true}}}},
@@ -50,7 +50,7 @@ Grains<D> gas() {
 }
 
 template <int D>
-soft::SoftSetup<D> box(const laws::Contact& law, soft::Scheme scheme = soft::Scheme::gear5) {
+soft::SoftSetup<D> box(const laws::ContactLaws& law, soft::Scheme scheme = soft::Scheme::gear5) {
   soft::SoftSetup<D> setup;
   for (int k = 0; k < D; ++k) setup.domain.length[k] = 1.08 * (D == 2 ? 8 : 4);
   setup.laws = law;
@@ -137,7 +137,7 @@ TEST_CASE("A pair that turns as one body keeps its tangential spring, about ever
   // Two touching grains, moved by hand: j is pushed aside, then both turn rigidly about an axis through the
   // contact.
   const double R = 0.5, xi = 1e-7, push = 1e-3, dt = 1e-3;
-  const laws::Contact law{laws::SpringDashpot::from_restitution(1e9, 1),
+  const laws::ContactLaws law{laws::SpringDashpot::from_restitution(1e9, 1),
                           laws::CundallStrack{{1e5, 0, 0, 0}, {1e9, true}}};
   soft::ContactStages<3> stages(Domain<3>{}, law);
   soft::Contacts<3> contacts;

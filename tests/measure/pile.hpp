@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "core/engine.hpp"
+#include "core/frame.hpp"
 
 namespace chute::test {
 
 /// Discs and contacts given one by one, on a line of length 10 without gravity of its own.
 struct Pile {
   std::vector<double> x, y, v_x, v_y, spin, radius, mass;
-  std::vector<ContactRecord> contacts;
+  std::vector<Contact> contacts;
   std::size_t moving = 0;
 
   std::size_t add(double place, double height, double m, double vx = 0, double vy = 0, double R = 0.5) {
@@ -24,8 +25,15 @@ struct Pile {
     return id;
   }
   void touch(std::size_t i, std::size_t j, double normal, double shear = 0) {
-    contacts.push_back({static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), 0, normal, shear});
+    Contact contact;
+    contact.a = static_cast<std::int64_t>(i), contact.b = static_cast<std::int64_t>(j);
+    const auto way = at(0).way(i, j);
+    const Vec<2> branch{{way[0], way[1]}}, n = (1 / norm(branch)) * branch;
+    contact.branch = way;
+    set_force<2>(contact, n, normal * n + shear * Vec<2>{{n[1], -n[0]}});
+    contacts.push_back(contact);
   }
+  static Frame frame() { return {.dimensions = 2, .footprint = 10, .bead_spacing = 1}; }
   GrainsView at(double time) const {
     GrainsView view;
     view.time = time;

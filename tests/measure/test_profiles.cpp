@@ -9,6 +9,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
+Frame line(double length) { return {.dimensions = 2, .footprint = length, .bead_spacing = 1}; }
+
 /// Discs given one by one.
 struct Discs {
   std::vector<double> x, y, vx, vy, spin, radius, mass;
@@ -36,22 +38,22 @@ TEST_CASE("a layer holds the grains whose centres lie in it") {
   discs.add(0.3, 0.5, 1, 0.5, -2);
   discs.add(0.9, 0.5, 3, -0.5, -4);
   discs.add(2.5, 0.25, 7, 0, 1);
-  measure::Profiles profiles(10, 1, {0, 100});
-  for (int t = 0; t <= 100; ++t) profiles.sample(discs.at(t), {});
+  measure::Profiles profiles(line(10), 1, {0, 100});
+  for (int t = 0; t <= 100; ++t) profiles.sample(discs.at(t), {}, {});
   const auto bins = profiles.result(0);
   REQUIRE(bins.size() == 3);
   CHECK(bins[0].h == 0.5);
   CHECK(bins[0].grains == Approx(2));
   CHECK(bins[0].eta.mean == Approx(2 * pi * 0.25 / 10));
-  CHECK(bins[0].v_x.mean == Approx(2));
-  CHECK(bins[0].v_y.mean == Approx(0).margin(1e-12));
-  CHECK(bins[0].sigma_x.mean == Approx(1));
-  CHECK(bins[0].sigma_y.mean == Approx(0.5));
+  CHECK(bins[0].v[0].mean == Approx(2));
+  CHECK(bins[0].v[1].mean == Approx(0).margin(1e-12));
+  CHECK(bins[0].sigma[0].mean == Approx(1));
+  CHECK(bins[0].sigma[1].mean == Approx(0.5));
   CHECK(bins[0].omega.mean == Approx(3));  // rolling downhill is positive
   CHECK(bins[1].grains == 0);
   CHECK(bins[2].grains == Approx(1));
-  CHECK(bins[2].v_x.mean == Approx(7));
-  CHECK(bins[2].sigma_x.mean == Approx(0).margin(1e-7));
+  CHECK(bins[2].v[0].mean == Approx(7));
+  CHECK(bins[2].sigma[0].mean == Approx(0).margin(1e-7));
   for (const auto& bin : {bins[0], bins[2]}) {
     REQUIRE(bin.eta.error);
     CHECK(*bin.eta.error == Approx(0).margin(1e-12));  // nothing changed in time
@@ -63,8 +65,8 @@ TEST_CASE("exact area fractions cut discs at the layers' edges and lose nothing"
   discs.add(3, 0.8);     // half below 3, half above
   discs.add(5.5, 0.25);  // inside a layer
   discs.add(7.2, 1.7);   // over four layers
-  measure::Profiles profiles(2, 1, {0, 10});
-  profiles.sample(discs.at(5), {});
+  measure::Profiles profiles(line(2), 1, {0, 10});
+  profiles.sample(discs.at(5), {}, {});
   const auto bins = profiles.result(0);
   CHECK(bins[2].eta_exact.mean * 2 == Approx(pi * 0.64 / 2));
   CHECK(bins[3].eta_exact.mean * 2 == Approx(pi * 0.64 / 2));
@@ -86,8 +88,8 @@ TEST_CASE("a disc partly below the bed's centres counts only above them") {
   Discs discs;
   discs.add(0.2, 0.5);
   discs.add(-3, 0.5);  // wholly below
-  measure::Profiles profiles(1, 1, {0, 10});
-  profiles.sample(discs.at(1), {});
+  measure::Profiles profiles(line(1), 1, {0, 10});
+  profiles.sample(discs.at(1), {}, {});
   const auto bins = profiles.result(0);
   REQUIRE(bins.size() == 1);
   const double below =
@@ -97,7 +99,7 @@ TEST_CASE("a disc partly below the bed's centres counts only above them") {
 }
 
 TEST_CASE("errors are standard errors over ten blocks of time") {
-  measure::Profiles profiles(1, 1, {0, 10});
+  measure::Profiles profiles(line(1), 1, {0, 10});
   double mean = 0, squares = 0;
   for (int block = 0; block < 10; ++block) {
     const double v = block * block;  // one value per block; within a block samples are the same
@@ -105,41 +107,41 @@ TEST_CASE("errors are standard errors over ten blocks of time") {
     squares += v * v / 10;
     Discs discs;
     discs.add(0.5, 0.1, v);
-    for (double t : {0.1, 0.5, 0.9}) profiles.sample(discs.at(block + t), {});
+    for (double t : {0.1, 0.5, 0.9}) profiles.sample(discs.at(block + t), {}, {});
   }
   const auto bins = profiles.result(0);
-  CHECK(bins[0].v_x.mean == Approx(mean));
-  REQUIRE(bins[0].v_x.error);
-  CHECK(*bins[0].v_x.error == Approx(std::sqrt((squares - mean * mean) / 9)));
+  CHECK(bins[0].v[0].mean == Approx(mean));
+  REQUIRE(bins[0].v[0].error);
+  CHECK(*bins[0].v[0].error == Approx(std::sqrt((squares - mean * mean) / 9)));
 }
 
 TEST_CASE("a single block has no error, and no sample no profile") {
-  measure::Profiles profiles(1, 1, {0, 10});
+  measure::Profiles profiles(line(1), 1, {0, 10});
   CHECK(profiles.result(0).empty());
   Discs discs;
   discs.add(0.5, 0.1, 1);
-  profiles.sample(discs.at(3), {});
+  profiles.sample(discs.at(3), {}, {});
   REQUIRE(profiles.result(0).size() == 1);
-  CHECK_FALSE(profiles.result(0)[0].v_x.error);
+  CHECK_FALSE(profiles.result(0)[0].v[0].error);
 }
 
 TEST_CASE("an empty layer has no mean velocity") {
   Discs discs;
   discs.add(0.5, 0.1, 1);
   discs.add(2.5, 0.1, 1);
-  measure::Profiles profiles(1, 1, {0, 10});
-  for (double t : {1.0, 8.0}) profiles.sample(discs.at(t), {});
+  measure::Profiles profiles(line(1), 1, {0, 10});
+  for (double t : {1.0, 8.0}) profiles.sample(discs.at(t), {}, {});
   const auto bins = profiles.result(0);
   CHECK(bins[1].eta.mean == 0);  // known to be 0
-  CHECK(std::isnan(bins[1].v_x.mean));
-  CHECK_FALSE(bins[1].v_x.error);
+  CHECK(std::isnan(bins[1].v[0].mean));
+  CHECK_FALSE(bins[1].v[0].error);
 }
 
 TEST_CASE("an average from the very end of a run is that one sample") {
   Discs discs;
   discs.add(0.5, 0.1, 4);
-  measure::Profiles profiles(1, 1, {10, 10});
-  profiles.sample(discs.at(10), {});
+  measure::Profiles profiles(line(1), 1, {10, 10});
+  profiles.sample(discs.at(10), {}, {});
   REQUIRE(profiles.result(0).size() == 1);
-  CHECK(profiles.result(0)[0].v_x.mean == 4);
+  CHECK(profiles.result(0)[0].v[0].mean == 4);
 }

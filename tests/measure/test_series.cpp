@@ -10,18 +10,18 @@ namespace {
 class Still final : public Engine {
  public:
   GrainsView view;
-  std::vector<ContactRecord> touching;
+  std::vector<Contact> touching;
   EnergyAccount account;
-  void advance_to(std::int64_t) override {}
   std::int64_t step() const override { return 30; }
   double time_step() const override { return 0.1; }
   GrainsView grains() const override { return view; }
   EnergyAccount energy() const override { return account; }
-  std::vector<ContactRecord> contacts() const override { return touching; }
-  void collect_impacts(bool) override {}
-  std::vector<Impact> take_impacts() override { return {}; }
+  std::vector<Contact> contacts() const override { return touching; }
   void save(std::ostream&) const override {}
   void restore(std::istream&) override {}
+
+ private:
+  void advance(std::int64_t) override {}
 };
 
 }  // namespace
@@ -40,11 +40,11 @@ TEST_CASE("a row of the series is a mean over the moving grains") {
   engine.view.period[0] = 10;
   engine.touching.resize(4);
   engine.account.translation = 7;
-  const auto row = measure::observe_series(engine);
+  const auto row = measure::observe_series(engine, {.dimensions = 2});
   CHECK(row.time == Approx(3));
   CHECK(row.x == (1 + 22) / 2.0);
-  CHECK(row.v_x == 4);
-  CHECK(row.v_y == 0.5);
+  CHECK(row.v[0] == 4);
+  CHECK(row.v[1] == 0.5);
   CHECK(row.omega == 4);  // positive when rolling downhill
   CHECK(row.contacts == 4);
   CHECK(row.energy.translation == 7);
@@ -61,8 +61,7 @@ TEST_CASE("in 3D z is up and spins about y roll downhill") {
   engine.view.spin = {w0, w1, w0};
   engine.view.radius = radius;
   engine.view.wraps = {wraps, wraps, wraps};
-  const auto row = measure::observe_series(engine);
-  CHECK(row.v_x == 4);
-  CHECK(row.v_y == 0.5);
+  const auto row = measure::observe_series(engine, {.dimensions = 3});
+  CHECK(row.v == std::array{4.0, 9.0, 0.5});
   CHECK(row.omega == 4);
 }

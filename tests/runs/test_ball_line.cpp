@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "run/engine_factory.hpp"
+#include "make_engine.hpp"
 
 using namespace chute;
 
@@ -38,7 +38,7 @@ TEST_CASE("a ball on a line of balls runs at the corrected closed form") {
           CHUTE_SOURCE_DIR "/scenes/ball-2d.toml",
           {"grains.size_ratio=" + std::to_string(size_ratio), "incline.sin=" + std::to_string(sine),
            "contact.normal.restitution=0.1", "contact.normal.stiffness=2e7"});
-      auto made = run::make_engine(scene);
+      auto made = test::make_engine(scene);
       auto& engine = *made.engine;
       const auto run_to = [&](double time) {
         engine.advance_to(std::llround(time / engine.time_step()));

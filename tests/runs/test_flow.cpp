@@ -4,7 +4,7 @@
 #include "folder.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
-#include "scene/start.hpp"
+#include "scene/world.hpp"
 
 using namespace chute;
 using namespace chute::test;
@@ -89,7 +89,7 @@ TEST_CASE("discs on a slope stop or flow, and averages may begin where the flow 
   const auto load = column("flow", "contact_yy"), load_moved = column("flow", "kinetic_yy");
   {
     const auto scene = scene::read_scene(folder / "flow" / "scene.toml");
-    const auto start = scene::make_start(scene);
+    const auto start = scene::make_world<2>(scene);
     for (std::size_t i = 0; i < start.grains.moving; ++i) weight += start.grains.mass[i];
     weight *= std::cos(scene.incline.theta()) / start.domain.length[0];
   }

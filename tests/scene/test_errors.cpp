@@ -3,7 +3,7 @@
 #include "common/error.hpp"
 #include "example.hpp"
 #include "scene/scene.hpp"
-#include "scene/start.hpp"
+#include "scene/world.hpp"
 
 using namespace chute;
 using namespace chute::test;
@@ -12,7 +12,7 @@ namespace {
 
 std::string refused(const std::string& text, const std::vector<std::string>& settings = {}) {
   try {
-    scene::make_start(scene::parse_scene(text, "scene.toml", settings));
+    scene::make_world<2>(scene::parse_scene(text, "scene.toml", settings));
   } catch (const InputError& error) {
     return error.what();
   }

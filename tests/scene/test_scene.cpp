@@ -4,7 +4,11 @@
 #include "common/atomic_file.hpp"
 #include "common/toml_reader.hpp"
 #include "example.hpp"
-#include "scene/scene.hpp"
+#include "beds/row.hpp"
+#include "engines/soft/soft_method.hpp"
+#include "measure/outputs.hpp"
+#include "scene/world.hpp"
+#include "starts/square.hpp"
 
 using namespace chute;
 using namespace chute::scene;
@@ -18,36 +22,41 @@ constexpr double pi = 3.14159265358979323846;
 }  // namespace
 
 TEST_CASE("every key of the design's example is read") {
-  const auto s = parse(example);
+  auto s = parse(example);
   CHECK(s.title == "Dense flow of 300 discs on a rough incline (thesis 5.2)");
   CHECK(s.units == Units::reduced);
   CHECK(s.seed == 1);
   CHECK(s.incline.theta() == Approx(0.1 * pi));
   CHECK(s.incline.gravity == 1);
-  CHECK(s.bed.kind == Bed::Kind::row);
-  CHECK(s.bed.diameter == 1);
-  CHECK(s.bed.count == 30);
+  const auto* bed = s.bed.as<beds::Row>();
+  REQUIRE(bed);
+  CHECK(bed->diameter == 1);
+  CHECK(bed->count == 30);
   CHECK(s.grains.count == 300);
   REQUIRE(s.grains.diameter);
   CHECK(s.grains.diameter->mean == 1);
   CHECK(s.grains.diameter->std == 0.05);
   CHECK(s.grains.density == Approx(6 / pi));
-  CHECK(s.mean_mass() == Approx(1));
-  CHECK(s.reference_mass() == Approx(0.5));  // of two grains
-  CHECK(s.grains.start.lattice == Start::Lattice::square);
-  CHECK(s.grains.start.spacing == 1.25);
-  CHECK(s.grains.start.velocity == 2);
-  CHECK(s.grains.start.spread == 2);
-  CHECK(s.engine.steps_per_contact == 50);
+  CHECK(setting_of(s).mean_mass == Approx(1));
+  CHECK(setting_of(s).reference().m_eff == Approx(0.5));  // of two grains
+  const auto* start = s.grains.start.as<starts::Square>();
+  REQUIRE(start);
+  CHECK(start->spacing == 1.25);
+  CHECK(start->velocity == 2);
+  CHECK(start->spread == 2);
+  REQUIRE(s.engine.as<soft::SoftMethod>());
+  CHECK(s.engine.as<soft::SoftMethod>()->steps_per_contact == 50);
   CHECK(s.duration == 400);
-  REQUIRE(s.output.frames);
-  CHECK(s.output.frames->every == 0.5);
-  REQUIRE(s.output.profiles);
-  CHECK(s.output.profiles->from == 200);
-  CHECK(s.output.profiles->bin == 1);
-  CHECK(s.output.series.every == 1);        // 400 rows
-  CHECK(s.output.checkpoint == 40);         // a tenth of the run
-  CHECK(s.output.profiles->every == 0.02);  // 0.02 √(d/g)
+  const auto& frames = s.wants<measure::FramesOutput>()->frames;
+  REQUIRE(frames);
+  CHECK(frames->every == 0.5);
+  const auto& profiles = s.wants<measure::ProfilesOutput>()->spec;
+  REQUIRE(profiles);
+  CHECK(profiles->from == 200);
+  CHECK(profiles->bin == 1);
+  CHECK(s.wants<measure::SeriesOutput>()->series.every == 1);  // 400 rows
+  CHECK(s.checkpoint == 40);                                   // a tenth of the run
+  CHECK(profiles->every == 0.02);                              // 0.02 √(d/g)
 }
 
 TEST_CASE("SI scenes have Earth's gravity and need a density") {
@@ -55,7 +64,7 @@ TEST_CASE("SI scenes have Earth's gravity and need a density") {
       parse(with("seed = 1", "seed = 1",
                  with("\"reduced\"", "\"SI\"", with("count = 300", "count = 300\ndensity = 2500"))));
   CHECK(s.incline.gravity == 9.81);
-  CHECK(s.mean_mass() == Approx(2500 * pi / 6));
+  CHECK(setting_of(s).mean_mass == Approx(2500 * pi / 6));
 }
 
 TEST_CASE("angles are written in degrees, radians or as a sine") {
@@ -91,20 +100,21 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
         with("restitution = 0.6", "damping = 0.1\nmass_scaling = \"both\""),
         with("law = \"coulomb-viscous\"\nviscosity = 1000\nfriction = 0.5", "law = \"frictionless\""),
         with("kind = \"row\"", "kind = \"disordered-row\"\ngap_max = 0.1"),
+        with("kind = \"row\"\ndiameter = 1.0\ncount = 30", "kind = \"flat\"\nlength = 30"),
         with("integrator = \"gear5\"", "integrator = \"verlet\"\ntime_step = 1e-5"),
         with("title = \"Dense", "title = \"a \\\"quoted\\\" \\\\ title\\n with lines; Dense"),
         with("frames = { every = 0.5 }",
              "frames = { every = 0.1, from = 3 }\ncontacts = true\nimpacts = { from = 1 }"),
         with("diameter = { mean = 1.0, std = 0.05 }", "size_ratio = 1.2")}) {
-    const auto scene = parse(text);
+    auto scene = parse(text);
     const auto resolved = to_toml(scene);
     INFO(resolved);
-    const auto again = parse(resolved);
+    auto again = parse(resolved);
     CHECK(to_toml(again) == resolved);
     CHECK(again.title == scene.title);
     CHECK(again.incline.theta() == scene.incline.theta());
     CHECK(again.grains.density == scene.grains.density);
-    CHECK(again.output.series.every == scene.output.series.every);
+    CHECK(again.wants<measure::SeriesOutput>()->series.every == scene.wants<measure::SeriesOutput>()->series.every);
     const auto k = [](const Scene& s) {
       return std::get<laws::SpringDashpot::Keys>(s.contact.normal).stiffness;
     };
@@ -113,7 +123,7 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
 }
 
 TEST_CASE("settings of the command line win over the file") {
-  const auto s = parse(example, {"grains.count=12", "grains.diameter.std=0", "incline.angle=20 deg",
+  auto s = parse(example, {"grains.count=12", "grains.diameter.std=0", "incline.angle=20 deg",
                                  "contact.normal.restitution=", "contact.normal.damping=3",
                                  "title=plain words", "output.profiles="});
   CHECK(s.grains.count == 12);
@@ -123,12 +133,12 @@ TEST_CASE("settings of the command line win over the file") {
   CHECK_FALSE(normal.restitution);
   CHECK(normal.damping == 3);
   CHECK(s.title == "plain words");
-  CHECK_FALSE(s.output.profiles);
+  CHECK_FALSE(s.wants<measure::ProfilesOutput>()->wanted());
   CHECK(parse(example, {"incline.angle=\"20 deg\""}).incline.theta() == Approx(20 * pi / 180));
   CHECK(parse(example, {"grains.count=12", "grains.count=13"}).grains.count == 13);  // the last one counts
 }
 
 TEST_CASE("a height of profile bins that is not given is one bed diameter") {
-  const auto s = parse(with("diameter = 1.0\n", "diameter = 0.25\n", with(", bin = 1.0", "")));
-  CHECK(s.output.profiles->bin == 0.25);
+  auto s = parse(with("diameter = 1.0\n", "diameter = 0.25\n", with(", bin = 1.0", "")));
+  CHECK(s.wants<measure::ProfilesOutput>()->spec->bin == 0.25);
 }

@@ -1,14 +1,14 @@
 #include <catch2/catch.hpp>
 
 #include "example.hpp"
-#include "scene/start.hpp"
+#include "scene/world.hpp"
 
 using namespace chute;
 using namespace chute::test;
 
 namespace {
-scene::Start2D start(const std::vector<std::string>& settings = {}) {
-  return scene::make_start(scene::parse_scene(example, "scene.toml", settings));
+World<2> start(const std::vector<std::string>& settings = {}) {
+  return scene::make_world<2>(scene::parse_scene(example, "scene.toml", settings));
 }
 }  // namespace
 
@@ -93,7 +93,7 @@ TEST_CASE("the seed fixes everything; bed, sizes and velocities have streams of 
 
 TEST_CASE("a single grain starts above the first gap, without spin") {
   const auto scene = scene::read_scene(CHUTE_SOURCE_DIR "/scenes/ball-2d.toml", {"grains.start.spread=0"});
-  const auto made = scene::make_start(scene);
+  const auto made = scene::make_world<2>(scene);
   CHECK(made.grains.moving == 1);
   CHECK(made.grains.position[0][0] == Approx(0.01));
   CHECK(made.grains.radius[0] == Approx(2.25 * 0.005));

@@ -10,7 +10,7 @@ struct SmallChute {
   static constexpr double stiffness = 1e5, restitution = 0.6;
   std::int64_t bed = 8, columns = 6, rows = 4;
 
-  static laws::Contact contact(double viscosity = 100, double friction = 0.5) {
+  static laws::ContactLaws contact(double viscosity = 100, double friction = 0.5) {
     return {laws::SpringDashpot::from_restitution(stiffness, restitution),
             laws::RegularisedCoulomb{viscosity, friction, laws::MassScaling::none}};
   }

@@ -12,7 +12,7 @@ struct Bounce {
 };
 
 struct HeadOn {
-  laws::Contact contact;
+  laws::ContactLaws contact;
   double dt;
   soft::Scheme scheme = soft::Scheme::gear5;
   double m_i = Acetate::mass, m_j = Acetate::mass;
@@ -44,7 +44,7 @@ double mean_restitution(const std::vector<Bounce>& all) {
 }
 
 const Oscillator acetate{Acetate::stiffness, Acetate::damping, Acetate::mass / 2};
-const laws::Contact acetate_law = smooth(Acetate::stiffness, Acetate::damping);
+const laws::ContactLaws acetate_law = smooth(Acetate::stiffness, Acetate::damping);
 
 }  // namespace
 
@@ -90,7 +90,7 @@ TEST_CASE("a contact lasts t_n (3.3)") {
 
 TEST_CASE("restitution asked per pair holds for unequal masses and with a fixed grain") {
   const double e_n = GENERATE(0.3, 0.6, 0.95);
-  const laws::Contact contact{laws::SpringDashpot::from_restitution(Acetate::stiffness, e_n),
+  const laws::ContactLaws contact{laws::SpringDashpot::from_restitution(Acetate::stiffness, e_n),
                               laws::Frictionless{}};
   for (double ratio : {0.1, 1.0, 7.0, std::numeric_limits<double>::infinity()}) {
     const bool moves = std::isfinite(ratio);
@@ -139,7 +139,7 @@ TEST_CASE("free flight is a parabola") {
   CHECK(view.velocity[0][0] == Approx(3 + 0.3 * t).epsilon(1e-12));
   CHECK(view.velocity[1][0] == Approx(4 - 0.9 * t).epsilon(1e-12));
   CHECK(view.spin[0][0] == -7);
-  CHECK(view.angle[0][0] == Approx(-7 * t).epsilon(1e-12));
+  CHECK(view.orientation[0][0] == Approx(-7 * t).epsilon(1e-12));
   const auto e = engine.energy();
   CHECK(e.gravity_work ==
         Approx(2 * (0.3 * (3 * t + 0.15 * t * t) - 0.9 * (4 * t - 0.45 * t * t))).epsilon(1e-10));

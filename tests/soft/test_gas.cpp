@@ -30,7 +30,7 @@ Grains<D> gas(std::int64_t n = 64, double spacing = 1.4) {
 }
 
 template <int D>
-soft::SoftSetup<D> box(const laws::Contact& contact, double dt, soft::Scheme scheme, std::int64_t n = 64,
+soft::SoftSetup<D> box(const laws::ContactLaws& contact, double dt, soft::Scheme scheme, std::int64_t n = 64,
                        double spacing = 1.4) {
   auto made = setup<D>(contact, dt, 1, scheme);
   for (int k = 0; k < D; ++k) made.domain.length[k] = std::round(std::pow(n, 1.0 / D)) * spacing;
@@ -67,7 +67,7 @@ Vec<D> momentum(const Grains<D>& g) {
 }
 
 template <int D>
-void check_momentum(const laws::Contact& contact, soft::Scheme scheme, std::int64_t n, double spacing) {
+void check_momentum(const laws::ContactLaws& contact, soft::Scheme scheme, std::int64_t n, double spacing) {
   auto grains = gas<D>(n, spacing);
   for (std::size_t i = 0; i < grains.size(); ++i)
     for (auto& spin : grains.spin) spin[i] = 3.0 - 0.1 * static_cast<double>(i);
@@ -111,7 +111,7 @@ TEST_CASE("the energy error of the elastic gas falls with the step") {
 
 TEST_CASE("momentum is kept to rounding, with damping and friction too") {
   const auto scheme = GENERATE(soft::Scheme::gear5, soft::Scheme::verlet);
-  const laws::Contact rough{laws::SpringDashpot::from_restitution(stiffness, 0.7),
+  const laws::ContactLaws rough{laws::SpringDashpot::from_restitution(stiffness, 0.7),
                             laws::RegularisedCoulomb{50, 0.4, laws::MassScaling::none}};
   check_momentum<2>(smooth(stiffness, 0), scheme, 64, 1.25);
   check_momentum<2>(rough, scheme, 64, 1.25);

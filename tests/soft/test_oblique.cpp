@@ -24,7 +24,7 @@ double spin_and_orbit(const Grains<2>& g) {
 
 /// Ball i hits ball j, which lies in direction x, with v_s = ψ_i |v_n|; a part of the slip comes from the
 /// spins.
-After oblique(double psi, double restitution, const laws::Contact& contact, double stiffness = k,
+After oblique(double psi, double restitution, const laws::ContactLaws& contact, double stiffness = k,
               double steps = 200) {
   const double damp = -std::log(restitution) / pi;
   const double t_n = pi / std::sqrt(stiffness / m_eff / (1 + damp * damp)), dt = t_n / steps;
@@ -47,7 +47,7 @@ After oblique(double psi, double restitution, const laws::Contact& contact, doub
   return {dv[0], -dv[1] + R * (g.spin[0][0] + g.spin[0][1]), spin_and_orbit(g), before};
 }
 
-laws::Contact coulomb(double e_n, double viscosity, double friction, double stiffness = k) {
+laws::ContactLaws coulomb(double e_n, double viscosity, double friction, double stiffness = k) {
   return {laws::SpringDashpot::from_restitution(stiffness, e_n),
           laws::RegularisedCoulomb{viscosity, friction, laws::MassScaling::none}};
 }

@@ -8,7 +8,7 @@ using namespace chute::test;
 namespace {
 
 /// Viscous friction, and laws that remember: directions are part of a memory in 3D.
-const std::vector<laws::Contact> kinds{
+const std::vector<laws::ContactLaws> kinds{
     {laws::SpringDashpot::from_restitution(1e5, 0.8),
      laws::RegularisedCoulomb{30, 0.3, laws::MassScaling::none}},
     {laws::WaltonBraun::from_restitution(1e5, 0.8),
@@ -32,7 +32,7 @@ Grains<D> handful() {
 }
 
 template <int D>
-Grains<D> run(const Grains<D>& grains, const Vec<D>& gravity, const laws::Contact& contact) {
+Grains<D> run(const Grains<D>& grains, const Vec<D>& gravity, const laws::ContactLaws& contact) {
   auto s = setup<D>(contact, 1.4e-4, 1);
   s.gravity = gravity;
   soft::SoftEngine<D> engine(grains, s);

@@ -10,7 +10,7 @@ namespace {
 
 /// Contacts that remember how they were loaded and how far they slipped: memories must survive every new
 /// list.
-const laws::Contact remembering{
+const laws::ContactLaws remembering{
     laws::WaltonBraun::from_restitution(SmallChute::stiffness, SmallChute::restitution),
     laws::CundallStrack{laws::PairCoefficient{2.0 / 7 * SmallChute::stiffness},
                         laws::CutOffSpring{0.5, true}}};

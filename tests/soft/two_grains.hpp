@@ -1,7 +1,7 @@
 #pragma once
 #include <numbers>
 
-#include "soft/soft_engine.hpp"
+#include "engines/soft/soft_engine.hpp"
 
 /// A few grains by hand, for tests that know the answer.
 namespace chute::test {
@@ -41,7 +41,7 @@ struct Oscillator {
 };
 
 template <int D>
-soft::SoftSetup<D> setup(const laws::Contact& contact, double time_step, double diameter,
+soft::SoftSetup<D> setup(const laws::ContactLaws& contact, double time_step, double diameter,
                          soft::Scheme scheme = soft::Scheme::gear5) {
   soft::SoftSetup<D> made;
   made.laws = contact;
@@ -65,7 +65,7 @@ std::int64_t through_one_contact(soft::SoftEngine<D>& engine, std::int64_t most 
   return -1;
 }
 
-inline laws::Contact smooth(double stiffness, double damping) {
+inline laws::ContactLaws smooth(double stiffness, double damping) {
   return {laws::SpringDashpot::from_damping(stiffness, damping, laws::MassScaling::none),
           laws::Frictionless{}};
 }

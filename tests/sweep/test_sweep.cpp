@@ -3,10 +3,11 @@
 
 #include "common/error.hpp"
 #include "folder.hpp"
-#include "run/engine_factory.hpp"
+#include "../runs/make_engine.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
-#include "scene/start.hpp"
+#include "scene/world.hpp"
+#include "starts/square.hpp"
 #include "sweep/sweep.hpp"
 
 using namespace chute;
@@ -25,7 +26,7 @@ Base base() {
   set.push_back(
       "sweep.axis=[{key=\"incline.sin\",values=[0.0,0.06]},{key=\"grains.size_ratio\",values=[2.25,3]}]");
   set.push_back("sweep.seeds=2");
-  return {ball, set};
+  return Base(ball, set);
 }
 
 bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, int shards = 1,
@@ -39,18 +40,19 @@ bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, i
 TEST_CASE("independent grains move as each would alone, to the last bit") {
   auto scene =
       scene::read_scene(ball, {"sweep=", "grains.count=5", "run.duration=0.5", "grains.start.spread=0.1"});
-  const auto together = run::make_engine(scene);
-  const auto start = scene::make_start(scene);
+  const auto together = test::make_engine(scene);
+  const auto start = scene::make_world<2>(scene);
   together.engine->advance_to(20000);
   const auto view = together.engine->grains();
   for (std::size_t i = 0; i < 5; ++i) {
     auto alone = scene;
     alone.grains.count = 1;
-    alone.grains.start.spread = 0;
-    alone.grains.start.x = start.grains.position[0][i];
-    alone.grains.start.velocity = start.grains.velocity[0][i];
-    alone.grains.start.velocity_up = start.grains.velocity[1][i];
-    const auto one = run::make_engine(alone);
+    auto* begin = alone.grains.start.as<starts::Alone>();
+    begin->spread = 0;
+    begin->x = start.grains.position[0][i];
+    begin->velocity = start.grains.velocity[0][i];
+    begin->velocity_up = start.grains.velocity[1][i];
+    const auto one = test::make_engine(alone);
     REQUIRE(one.engine->time_step() == together.engine->time_step());
     one.engine->advance_to(20000);
     const auto v = one.engine->grains();
@@ -64,7 +66,7 @@ TEST_CASE("independent grains move as each would alone, to the last bit") {
 TEST_CASE("grains that may not rotate never spin, and feel friction all the same") {
   const auto scene =
       scene::read_scene(ball, {"sweep=", "grains.count=2", "grains.rotation=false", "run.duration=1"});
-  const auto made = run::make_engine(scene);
+  const auto made = test::make_engine(scene);
   made.engine->advance_to(5000);
   for (std::size_t i = 0; i < 2; ++i) CHECK(made.engine->grains().spin[0][i] == 0);
   CHECK(made.engine->energy().shear_loss > 0);
@@ -77,15 +79,15 @@ TEST_CASE("a sweep of one start says what a run of it says") {
   auto set = one;
   set.insert(set.end(), {"sweep=", "seed=1"});
   const auto scene = scene::read_scene(ball, set);
-  const auto outcome = follow(scene, [](double) { return true; });
+  const auto followed = follow(scene, [](double) { return true; });
   run::RunOptions options;
   options.directory = folder / "run";
   run::run_scene(scene, options);
   const auto flow = run::read_flow(folder / "run");
-  REQUIRE(outcome.starts.size() == 1);
-  CHECK(outcome.starts[0].verdict == flow.verdict);
-  CHECK(outcome.starts[0].v_x.mean == flow.v_x.mean);
-  CHECK(outcome.starts[0].omega.mean == flow.omega.mean);
+  REQUIRE(followed.starts.size() == 1);
+  CHECK(followed.starts[0].verdict == flow.verdict);
+  CHECK(followed.starts[0].v_x.mean == flow.v_x.mean);
+  CHECK(followed.starts[0].omega.mean == flow.omega.mean);
 }
 
 TEST_CASE("a sweep gives the same tables whatever the jobs and shards, resumed or not") {
@@ -141,12 +143,12 @@ TEST_CASE("a wrong place of the grid is refused before anything is written") {
 TEST_CASE("the lower boundary of a stiff inelastic ball is that of the corrected closed form") {
   // e_n = 0.1 and strong friction are near the theory's e_n = 0 without slip: sin θ_AB = 0.02287 for Φ = 2.25
   const Folder folder;
-  const Base stiff{CHUTE_SOURCE_DIR "/scenes/boundaries-ball.toml",
+  const Base stiff(CHUTE_SOURCE_DIR "/scenes/boundaries-ball.toml",
                    {"contact.normal.restitution=0.1", "contact.normal.stiffness=2e7",
                     "contact.tangential.friction=0.5", "contact.tangential.viscosity=1000", "grains.count=6",
                     "run.duration=12", "sweep.axis=[{key=\"grains.size_ratio\",values=[2.25]}]",
                     "sweep.boundary={axis={key=\"incline.sin\",from=0.02,to=0.026,count=2},tolerance=0.0002,"
-                    "velocities=[0.2]}"}};
+                    "velocities=[0.2]}"});
   CHECK(go(stiff, folder / "a", 2));
   const auto text = content(folder / "a/boundaries.csv");
   const auto row = text.substr(text.find("\n2.25,") + 6);

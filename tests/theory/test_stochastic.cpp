@@ -5,10 +5,11 @@
 
 #include "common/error.hpp"
 #include "theory/stochastic.hpp"
-#include "theory/stochastic_engine.hpp"
+#include "engines/stochastic/stochastic_engine.hpp"
 
 using namespace chute;
 using namespace chute::theory;
+using stochastic::StochasticEngine;
 
 TEST_CASE(
     "an impact: v_n is reversed by e_n, v_t loses what (4.8) or (4.9) says, and never more than the sticking "
@@ -131,14 +132,14 @@ namespace {
 StochasticEngine engine(double velocity = 0.3, double sine = 0.2) {
   StochasticModel model;
   model.theta = std::asin(sine);
-  Grains<2> grains;
+  World<2> world;
+  auto& grains = world.grains;
   const double r = model.bead_radius, R = model.ball_radius;
   grains.add({{0, R + r + 1e-4}}, R, 2, 0.8 * R * R, true);
   grains.velocity[0][0] = velocity;
   for (int i = 0; i < 40; ++i) grains.add({{i * 2 * r, 0}}, r, 1, 1, false);
-  Domain<2> domain;
-  domain.length[0] = 80 * r;
-  return StochasticEngine(grains, domain, model, 7, 1e-3);
+  world.domain.length[0] = 80 * r;
+  return StochasticEngine(world, model, 7, 1e-3);
 }
 }  // namespace
 

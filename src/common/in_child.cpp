@@ -1,0 +1,74 @@
+#include "common/in_child.hpp"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <exception>
+
+#include "common/error.hpp"
+
+namespace chute {
+namespace {
+
+/// First byte of what a child sends.
+constexpr char it_worked = '+', it_threw = '-';
+
+bool send(int to, const char* data, std::size_t size) {
+  while (size > 0) {
+    const auto written = ::write(to, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+[[noreturn]] void live_as_child(int to, const std::function<std::string()>& work, std::size_t most_bytes) {
+  for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGABRT, SIGBUS}) std::signal(signal, SIG_DFL);
+  const rlimit memory{most_bytes, most_bytes}, no_core{0, 0};
+  ::setrlimit(RLIMIT_AS, &memory);
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  std::string answer(1, it_worked);
+  try {
+    answer += work();
+  } catch (const std::exception& error) {
+    answer = std::string(1, it_threw) + error.what();
+  }
+  ::_exit(send(to, answer.data(), answer.size()) ? 0 : 1);
+}
+
+}  // namespace
+
+std::string in_child(const std::function<std::string()>& work, const std::string& when_it_dies,
+                     std::size_t most_bytes) {
+  int ends[2];
+  if (::pipe(ends) != 0) throw WorkError("no pipe to a reading process can be had");
+  const auto child = ::fork();
+  if (child < 0) throw WorkError("no reading process can be had");
+  if (child == 0) {
+    ::close(ends[0]);
+    live_as_child(ends[1], work, most_bytes);
+  }
+  ::close(ends[1]);
+  std::string answer;
+  char buffer[65536];
+  for (;;) {
+    const auto got = ::read(ends[0], buffer, sizeof buffer);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    answer.append(buffer, static_cast<std::size_t>(got));
+  }
+  ::close(ends[0]);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) throw InputError(when_it_dies);
+  if (answer[0] == it_threw) throw InputError(answer.substr(1));
+  return answer.substr(1);
+}
+
+}  // namespace chute

@@ -1,0 +1,30 @@
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/frame.hpp"
+#include "core/grains.hpp"
+#include "core/wall.hpp"
+
+namespace chute {
+
+/// Where grains are: what every method knows besides the grains themselves.
+template <int D>
+struct Surroundings {
+  Domain<D> domain;
+  Vec<D> gravity{};
+  std::vector<Wall<D>> walls;
+  double floor = -std::numeric_limits<double>::infinity();  ///< a grain below (last coordinate) is lost
+  Frame frame;
+};
+
+/// What every method starts from.
+template <int D>
+struct World : Surroundings<D> {
+  Grains<D> grains;  ///< the moving ones, then the bed
+
+  const Surroundings<D>& surroundings() const { return *this; }
+};
+
+}  // namespace chute

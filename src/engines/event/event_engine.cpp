@@ -1,0 +1,411 @@
+#include "engines/event/event_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/vector.hpp>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "engines/event/first_contact.hpp"
+
+namespace chute::event {
+namespace {
+
+/// A collapse shows as a grain that collides this often within a short time, in units of the time in which a
+/// grain falls its own size: bounces of 1e-6 of it rise to 1e-13 of that size, and a little below, rounding
+/// of places keeps kicking the grain about, so that a collapse need not end. A contact time of more than some
+/// 1e-5 of it keeps clear of this.
+constexpr std::int64_t collapse_collisions = 1000;
+constexpr double collapse_time = 1e-3;
+
+/// Two grains whose distance at their collision is off by more than this part of R_i + R_j have missed it: an
+/// error of this engine, not of the scene.
+constexpr double missed = 1e-6;
+
+/// Grains may overlap by this part of R_i + R_j at the start: rounding of places that were meant to touch.
+constexpr double touching = 1e-9;
+
+/// Lower bound of the rebound in a lasting contact, in units of g t_c. The bounce then lasts at least t_c/2
+/// on a level bead, safely within the train; 1/2 would end it.
+constexpr double least_rebound = 0.25;
+
+}  // namespace
+
+template <int D>
+EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
+    : setup_(setup),
+      grains_(std::move(grains)),
+      meetings_(grains_.moving, setup.contact_time),
+      touches_(grains_.moving, setup.contact_time) {
+  const std::size_t n = grains_.size(), moving = grains_.moving;
+  flights_.resize(n);
+  double widest_moving = 0, widest_fixed = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    Flight<D>& f = flights_[i];
+    f.place = grains_.place(i);
+    f.radius = grains_.radius[i];
+    double& widest = i < moving ? widest_moving : widest_fixed;
+    widest = std::max(widest, f.radius);
+    if (i < moving) {
+      f.velocity = grains_.speed(i);
+      f.gravity = setup_.gravity;
+      f.spin = grains_.turning(i);
+      f.orientation = grains_.attitude(i);
+      for (std::size_t k = 0; k < D; ++k) f.wraps[k] = grains_.wraps[k][i];
+    }
+    Flight<D>::wrap(f.place, f.wraps, setup_.domain);
+  }
+  reach_ = widest_moving + (moving > 1 ? std::max(widest_moving, widest_fixed) : widest_fixed);
+  for (int k = 0; k < D; ++k) {
+    if (setup_.domain.length[k] < 2 * reach_)
+      throw WorkError(
+          fmt::format("a periodic domain of length {} is too short for grains of radius {}: needed {}",
+                      setup_.domain.length[k], widest_moving, 2 * reach_));
+    force_[static_cast<std::size_t>(k)].assign(n, 0);
+  }
+  prospect_.resize(moving);
+  crossing_.resize(moving);
+  bursts_.resize(moving);
+  show();
+  for (int k = 0; k < D; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    start_place_[axis].resize(moving);
+    for (std::size_t i = 0; i < moving; ++i) start_place_[axis][i] = this->grains().unwrapped(i, axis);
+  }
+  account_.start = energy().stored();
+  const double g = norm(setup_.gravity);
+  double fastest = 0;
+  for (std::size_t i = 0; i < moving; ++i) fastest = std::max(fastest, norm(flights_[i].velocity));
+  still_ = collapse_time * (g > 0 ? std::sqrt(reach_ / g) : reach_ / fastest);
+  lay_out();
+  for (std::size_t i = 0; i < moving; ++i)
+    for (const auto& wall : setup_.walls)
+      if (const double height = wall.height(flights_[i].place); height < flights_[i].radius * (1 - touching))
+        throw WorkError(fmt::format("grain {} overlaps a wall by {:.3g} at the start; hard grains cannot", i,
+                                    flights_[i].radius - height));
+  for (std::size_t i = 0; i < moving; ++i)
+    cells_.neighbours(i, nullptr, [&](std::size_t j, const auto&) {
+      const double distance = norm(setup_.domain.way(flights_[i].place, flights_[j].place));
+      const double reach = flights_[i].radius + flights_[j].radius;
+      if (distance < reach * (1 - touching))
+        throw WorkError(fmt::format("grains {} and {} overlap by {:.3g} at the start; hard grains cannot", i,
+                                    j, reach - distance));
+    });
+}
+
+/// When two grains meet, if not surely later than `limit`. Computed from the later of their last collisions,
+/// and always the same way round: the same bytes whoever asks, and when.
+template <int D>
+double EventEngine<D>::contact_with(std::size_t i, const Candidate& candidate, double limit) {
+  ++work_.candidates;
+  const std::size_t j = candidate.other;
+  const bool swapped = j < i;
+  const Flight<D>&a = flights_[swapped ? j : i], &b = flights_[swapped ? i : j];
+  const double from = std::max(a.time, b.time);
+  Approach<D> approach;
+  const Vec<D> place_a = a.place_at(from), place_b = b.place_at(from);
+  for (int k = 0; k < D; ++k) {
+    const int periods = candidate.shift[static_cast<std::size_t>(k)];
+    approach.d[k] = place_a[k] - place_b[k];
+    if (periods != 0) approach.d[k] -= (swapped ? -periods : periods) * setup_.domain.length[k];
+  }
+  approach.v = a.velocity_at(from) - b.velocity_at(from);
+  approach.a = a.gravity - b.gravity;
+  approach.reach = a.radius + b.radius;
+  // The bound is cheap and exact but for rounding, hence the margin; it saves most of the quartics.
+  if (from + approach.earliest() * (1 - 1e-9) > limit) return std::numeric_limits<double>::infinity();
+  ++work_.predictions;
+  return from + first_contact(approach);
+}
+
+template <int D>
+double EventEngine<D>::contact_with_wall(std::size_t i, std::size_t wall) const {
+  const auto& w = setup_.walls[wall];
+  const Flight<D>& f = flights_[i];
+  return f.time + first_contact_with_plane(w.height(f.place) - f.radius, dot(f.velocity, w.normal), dot(f.gravity, w.normal));
+}
+
+/// Looks for grain i's earliest collision: among all neighbours, the likely one first, or, after a crossing,
+/// among the new ones.
+template <int D>
+void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely) {
+  Prospect& first = prospect_[i];
+  if (!crossed) first = {};
+  candidates_.clear();
+  cells_.neighbours(i, crossed, [&](std::size_t j, const std::array<int, D>& shift) {
+    candidates_.push_back({j, shift});
+    if (j == likely) std::swap(candidates_.front(), candidates_.back());
+  });
+  for (const Candidate& candidate : candidates_) {
+    const double t = contact_with(i, candidate, first.time);
+    const std::size_t j = candidate.other;
+    if (t < first.time || (t == first.time && t < std::numeric_limits<double>::infinity() && j < first.other))
+      first = {t, j, flights_[j].collisions};
+  }
+  for (std::size_t w = 0; !crossed && w < setup_.walls.size(); ++w)
+    if (const double t = contact_with_wall(i, w); t < first.time) first = {t, grains_.size() + w, 0};
+  plan(i);
+}
+
+template <int D>
+void EventEngine<D>::plan(std::size_t i) {
+  crossing_[i] = cells_.crossing(i, flights_[i], now_);
+  const double next = std::min(prospect_[i].time, crossing_[i].time);
+  if (std::isnan(next)) leave_physics(i, "its place is not a number");
+  queue_.set(i, next);
+}
+
+template <int D>
+void EventEngine<D>::lay_out() {
+  ++work_.layouts;
+  cells_.build(flights_, setup_.domain, reach_, now_);
+  queue_.clear();
+  for (std::size_t i = 0; i < grains_.moving; ++i) queue_.add(0);
+  for (std::size_t i = 0; i < grains_.moving; ++i) look(i, nullptr, i);
+  next_look_ = work_.collisions + work_.crossings + 16 * static_cast<std::int64_t>(grains_.moving);
+}
+
+template <int D>
+void EventEngine<D>::advance(std::int64_t step) {
+  if (step <= step_) return;
+  const double until = static_cast<double>(step) * setup_.tick;
+  while (!queue_.empty() && queue_.next().time <= until) {
+    const std::size_t i = queue_.next().grain;
+    now_ = std::max(now_, queue_.next().time);
+    const Prospect& next = prospect_[i];
+    if (crossing_[i].time < next.time) {
+      ++work_.crossings;
+      const auto crossed = crossing_[i];
+      cells_.cross(i, crossed);
+      look(i, &crossed, i);
+    } else if (!is_wall(next.other) && flights_[next.other].collisions != next.other_collisions) {
+      ++work_.outdated;
+      look(i, nullptr, i);
+    } else {
+      collide(i, next.other);
+    }
+    if (work_.collisions + work_.crossings >= next_look_) {
+      next_look_ += 16 * static_cast<std::int64_t>(grains_.moving);
+      if (cells_.outgrown(flights_, grains_.moving, now_)) lay_out();
+    }
+  }
+  step_ = step;
+  show();
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    if (grains_.position[D - 1][i] < setup_.floor) leave_physics(i, "it fell through the bed");
+}
+
+template <int D>
+laws::Collider<D> EventEngine<D>::collider(std::size_t i) const {
+  if (is_wall(i)) return {{}, {}, 0, 0, 0};
+  const Flight<D>& f = flights_[i];
+  return {f.velocity, f.spin, f.radius, grains_.inverse_mass[i], grains_.inverse_inertia[i]};
+}
+
+/// The collision itself, with the cut-off against collapse; n from a to b.
+template <int D>
+laws::Collision<D> EventEngine<D>::exchange(const Vec<D>& n, const Meeting* train, laws::Collider<D>& a,
+                                            laws::Collider<D>& b) {
+  const double v_n = dot(b.velocity - a.velocity, n);
+  const double e_n = laws::restitution_at(setup_.contact.restitution, v_n);
+  if (!train) return setup_.contact.tangential(n, e_n, a, b);
+  const double since = now_ - train->last, t_c = meetings_.contact_time();
+  if (since < t_c) ++work_.elastic;
+  const double cut_off = laws::ContactTimeCutoff{t_c}(e_n, since, since);
+  const double least = since < t_c ? least_rebound * norm(setup_.gravity) * t_c : 0;
+  if (v_n < 0) return setup_.contact.tangential(n, std::max(cut_off, least / -v_n), a, b);
+  // A touch without approach: rounding, or grains that do not rebound at all. A normal push parts them.
+  laws::Collision<D> push;
+  const double m_eff = 1 / (a.inverse_mass + b.inverse_mass), rebound = std::max(v_n, least);
+  push.impulse = (m_eff * (rebound - v_n)) * n;
+  push.normal_loss = 0.5 * m_eff * (v_n * v_n - rebound * rebound);
+  laws::apply_impulse(n, push.impulse, a, b);
+  return push;
+}
+
+template <int D>
+void EventEngine<D>::collide(std::size_t first, std::size_t second) {
+  ++work_.collisions;
+  const std::size_t i = std::min(first, second), j = std::max(first, second);
+  const bool both = j < grains_.moving;
+  for (const std::size_t k : {i, j})
+    if (k < grains_.moving) cells_.unwind(k, flights_[k].move_to(now_, setup_.domain));
+  const Vec<D> way = way_to(j, flights_[i].place, is_wall(j) ? Vec<D>{} : flights_[j].place);
+  const double distance = norm(way), reach = flights_[i].radius + (is_wall(j) ? 0 : flights_[j].radius);
+  if (!(std::abs(distance - reach) <= missed * reach))
+    leave_physics(i, fmt::format("it met {} at a distance of {} instead of {}",
+                                 is_wall(j) ? "a wall" : fmt::format("grain {}", j), distance, reach));
+  const Vec<D> n = (1 / distance) * way;
+
+  const Meeting* train = meetings_.running(i, j, now_);
+  note_touch(i, j, n, train);
+  laws::Collider<D> a = collider(i), b = collider(j);
+  const auto done = exchange(n, train, a, b);
+  meetings_.note(i, j, now_, as_file_vector(done.impulse));
+  if (collecting_collisions_) collisions_.push_back({told(i, j, flights_[i].place, way, done.impulse), now_});
+  account_.normal_loss += done.normal_loss;
+  account_.shear_loss += done.shear_loss;
+
+  flights_[i].velocity = a.velocity, flights_[i].spin = a.spin, ++flights_[i].collisions;
+  if (both) flights_[j].velocity = b.velocity, flights_[j].spin = b.spin, ++flights_[j].collisions;
+  check_collapse(i);
+  if (both) check_collapse(j);
+  look(i, nullptr, j);
+  if (both) look(j, nullptr, i);
+}
+
+/// The shortest way from a place to a grain at `to`, or to a wall.
+template <int D>
+Vec<D> EventEngine<D>::way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to) const {
+  if (!is_wall(partner)) return setup_.domain.way(from, to);
+  const auto& wall = setup_.walls[partner - grains_.size()];
+  return -wall.height(from) * wall.normal;
+}
+
+template <int D>
+Contact EventEngine<D>::told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way,
+                             const Vec<D>& force) const {
+  const Vec<D> n = (1 / norm(way)) * way;
+  Contact contact;
+  contact.a = static_cast<std::int64_t>(i);
+  contact.b = is_wall(partner) ? wall_id(partner - grains_.size()) : static_cast<std::int64_t>(partner);
+  contact.point = as_file_vector(place + grains_.radius[i] * n);
+  contact.branch = as_file_vector(way);
+  set_force(contact, n, force);
+  return contact;
+}
+
+/// An impact, or the rolling contact goes on; n from i to j.
+template <int D>
+void EventEngine<D>::note_touch(std::size_t i, std::size_t j, const Vec<D>& n, const Meeting* train) {
+  if (train) return touches_.hold(now_, i, j);
+  const bool both = j < grains_.moving;  // then the one with the lower id counts as the bead
+  const auto grain = both ? j : i, bead = both ? i : j;
+  const Vec<D> out = both ? n : -1.0 * n;
+  const Flight<D>& hitting = flights_[grain];
+  const Vec<D> v = hitting.velocity - (is_wall(bead) ? Vec<D>{} : flights_[bead].velocity);
+  Impact impact = impact_at(now_, out, v, hitting.place - hitting.radius * out);
+  impact.grain = static_cast<std::int64_t>(grain);
+  impact.bead = static_cast<std::int64_t>(bead);
+  touches_.begin(impact);
+  touches_.end(now_, i, j);
+  if (is_wall(bead)) impact.bead = wall_id(bead - grains_.size());
+  if (collecting_) impacts_.push_back(impact);
+}
+
+template <int D>
+void EventEngine<D>::check_collapse(std::size_t i) {
+  Burst& burst = bursts_[i];
+  if (now_ - burst.begin > still_) burst = {now_, 0};
+  if (++burst.collisions > collapse_collisions)
+    leave_physics(
+        i, fmt::format("inelastic collapse: it collides ever more often ({} times within {:.2g}); give a "
+                       "contact time, or a longer one, below which collisions are elastic",
+                       burst.collisions, still_));
+}
+
+template <int D>
+std::vector<Impact> EventEngine<D>::take_impacts() {
+  return std::exchange(impacts_, {});
+}
+
+template <int D>
+void EventEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
+  throw WorkError(
+      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", now_, step_, grain, what));
+}
+
+/// Brings what others see to the current tick. The flights stay as they are.
+template <int D>
+void EventEngine<D>::show() {
+  const double t = time();
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    const Flight<D>& f = flights_[i];
+    Vec<D> place = f.place_at(t);
+    const Vec<D> velocity = f.velocity_at(t);
+    const auto orientation = f.orientation_at(t);
+    auto wraps = f.wraps;
+    Flight<D>::wrap(place, wraps, setup_.domain);
+    for (int k = 0; k < D; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      grains_.position[axis][i] = place[k];
+      grains_.velocity[axis][i] = velocity[k];
+      if (i < grains_.moving) grains_.wraps[axis][i] = wraps[axis];
+      force_[axis][i] = 0;
+    }
+    for (int k = 0; k < orientation_numbers<D>; ++k)
+      grains_.orientation[static_cast<std::size_t>(k)][i] = orientation[k];
+    for (int k = 0; k < turns<D>; ++k) grains_.spin[static_cast<std::size_t>(k)][i] = f.spin[k];
+  }
+  for (const auto& c : contacts())
+    for (std::size_t k = 0; k < D; ++k) {
+      force_[k][static_cast<std::size_t>(c.a)] -= c.force[k];
+      if (!chute::is_wall(c.b)) force_[k][static_cast<std::size_t>(c.b)] += c.force[k];
+    }
+}
+
+template <int D>
+GrainsView EventEngine<D>::grains() const {
+  return view_of(grains_, force_, setup_.domain, time());
+}
+
+template <int D>
+EnergyAccount EventEngine<D>::energy() const {
+  EnergyAccount e = account_;
+  e.add_motion(grains(), setup_.gravity, start_place_);
+  return e;
+}
+
+template <int D>
+std::vector<Contact> EventEngine<D>::contacts() const {
+  std::vector<Contact> lasting;
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    for (const Meeting& m : meetings_.of(i)) {
+      if (!m.lasting() || !meetings_.runs(m, time())) continue;
+      const auto j = static_cast<std::size_t>(m.other);
+      Vec<D> force;
+      for (int k = 0; k < D; ++k) force[k] = m.impulse[static_cast<std::size_t>(k)] / (m.last - m.first);
+      const Vec<D> way = way_to(j, grains_.place(i), is_wall(j) ? Vec<D>{} : grains_.place(j));
+      lasting.push_back(told(i, j, grains_.place(i), way, force));
+      lasting.back().overlap = grains_.radius[i] + (is_wall(j) ? 0 : grains_.radius[j]) - norm(way);
+    }
+  std::sort(lasting.begin(), lasting.end(),
+            [](const Contact& a, const Contact& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); });
+  return lasting;
+}
+
+/// Everything that changes during a run, for both directions of a checkpoint. Cells, queue and predictions
+/// follow from it.
+template <int D>
+template <class Archive, class Self>
+void EventEngine<D>::transfer(Archive& archive, Self& self) {
+  for (std::size_t i = 0; i < self.grains_.moving; ++i) {
+    auto& f = self.flights_[i];
+    archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
+    archive(self.bursts_[i].begin, self.bursts_[i].collisions);
+  }
+  archive(self.start_place_, self.meetings_, self.touches_, self.account_.start, self.account_.normal_loss,
+          self.account_.shear_loss, self.now_, self.step_);
+}
+
+template <int D>
+void EventEngine<D>::save(std::ostream& out) const {
+  cereal::PortableBinaryOutputArchive archive(out);
+  transfer(archive, *this);
+}
+
+template <int D>
+void EventEngine<D>::restore(std::istream& in) {
+  cereal::PortableBinaryInputArchive archive(in);
+  transfer(archive, *this);
+  show();
+  lay_out();
+}
+
+template class EventEngine<2>;
+template class EventEngine<3>;
+
+}  // namespace chute::event

@@ -1,0 +1,46 @@
+#include "engines/event/event_method.hpp"
+
+#include "engines/event/event_engine.hpp"
+
+namespace chute::event {
+namespace {
+
+double cut_off(const EventMethod& method, const engines::Setting& s) {
+  return method.contact_time.value_or(s.contact.impact(s.reference()).contact_time);
+}
+
+template <int D>
+std::unique_ptr<Engine> made(World<D> world, const EventMethod& method, const engines::Setting& setting) {
+  EventSetup<D> setup{world.surroundings()};
+  const double e_n = method.e_n(setting);
+  setup.contact.restitution = laws::ConstantRestitution{e_n};
+  if (method.restitution_velocity)
+    setup.contact.restitution =
+        laws::PowerLawRestitution{1 - e_n, *method.restitution_velocity, method.restitution_exponent};
+  setup.contact.tangential = method.walton(setting);
+  setup.contact_time = cut_off(method, setting);
+  setup.tick = method.step(setting);
+  return std::make_unique<EventEngine<D>>(std::move(world.grains), setup);
+}
+
+}  // namespace
+
+Offers EventMethod::offers() const {
+  return {.contacts = true, .collisions = true, .impacts = true, .walls = true};
+}
+
+std::vector<Fact> EventMethod::facts(const engines::Setting& s) const {
+  auto list = walton_facts(s);
+  list.push_back({"t_c", cut_off(*this, s), s.in("s", "sqrt(d/g)"),
+                  "collisions of a pair that follow each other faster are elastic"});
+  return list;
+}
+
+std::unique_ptr<Engine> EventMethod::make(World<2> world, const engines::Setting& setting, int) const {
+  return made(std::move(world), *this, setting);
+}
+std::unique_ptr<Engine> EventMethod::make(World<3> world, const engines::Setting& setting, int) const {
+  return made(std::move(world), *this, setting);
+}
+
+}  // namespace chute::event

@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "common/keys.hpp"
+#include "core/engine.hpp"
+#include "core/fact.hpp"
+#include "core/offers.hpp"
+#include "core/world.hpp"
+#include "laws/contact_spec.hpp"
+
+/// What a method of simulation tells of itself. Each has a folder beside this one, and a line in engines/list.cpp.
+namespace chute::engines {
+
+/// What a method may know of a scene besides its world.
+struct Setting {
+  bool si = false;  ///< units' names: SI, or m = g = d = 1
+  std::uint64_t seed = 1;
+  int dimensions = 2;
+  double theta = 0, gravity = 0;
+  double duration = 0;
+  double between_outputs = 0;  ///< shortest time between two rows of the series or two frames
+  laws::ContactSpec contact;
+  /// Contacts of interest; the first is the one that contact times and restitutions of the scene are given for: two mean
+  /// grains, or the only grain with the bed.
+  std::vector<laws::NamedPair> pairs;
+  /// The contact that is over first: the smallest grains with each other or with the bed.
+  std::optional<laws::NamedPair> stiffest;
+  double mean_diameter = 1, mean_mass = 1, bead_diameter = 1;
+  double bead_spacing = 1;  ///< nominal way from bead to bead; 0: no bed of beads
+  double widest_spacing = 1;
+  std::int64_t grains = 1;
+  bool independent = false, rotation = true;
+  double launch_velocity = 0;  ///< mean v_x at the start
+
+  laws::Pair reference() const { return pairs.front().pair; }
+  const laws::NamedPair& shortest() const { return stiffest ? *stiffest : pairs.front(); }
+  /// Names of units.
+  std::string in(const char* si_unit, const char* reduced_unit) const { return si ? si_unit : reduced_unit; }
+};
+
+/// What a scene says of its method.
+class Method : public Keys {
+ public:
+  using Thing = Method;
+  virtual std::unique_ptr<Method> clone() const = 0;
+  virtual Offers offers() const = 0;
+  /// Why it cannot do this scene.
+  virtual std::optional<Refusal> refusal(const Setting&) const { return {}; }
+  /// The time between the instants at which a run can stop.
+  virtual double step(const Setting& setting) const = 0;
+  /// What follows from the scene, for `chute check`.
+  virtual std::vector<Fact> facts(const Setting& setting) const = 0;
+  /// Seconds that a step takes, roughly, on one core.
+  virtual double seconds_per_step(const Setting&) const { return 0; }
+  virtual std::unique_ptr<Engine> make(World<2> world, const Setting& setting, int threads) const = 0;
+  virtual std::unique_ptr<Engine> make(World<3> world, const Setting& setting, int threads) const = 0;
+};
+
+/// All methods, the default first.
+Catalogue<Method>& list();
+
+/// The longest step not above `longest` of which a whole number lies between two outputs, so that frames are at t =
+/// 12.5 and not at 12.49999.
+double step_dividing(double between_outputs, double longest);
+
+}  // namespace chute::engines

@@ -1,0 +1,13 @@
+#include "engines/event/event_method.hpp"
+#include "engines/soft/soft_method.hpp"
+#include "engines/stochastic/stochastic_method.hpp"
+
+namespace chute::engines {
+
+Catalogue<Method>& list() {
+  static Catalogue<Method> all{kind_of<Method, soft::SoftMethod>(), kind_of<Method, event::EventMethod>(),
+                               kind_of<Method, stochastic::StochasticMethod>()};
+  return all;
+}
+
+}  // namespace chute::engines

@@ -1,0 +1,256 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "core/domain.hpp"
+#include "core/grains.hpp"
+#include "core/kernel.hpp"
+#include "core/team.hpp"
+#include "laws/list.hpp"
+#include "search/coarse_places.hpp"
+#include "engines/soft/contact_memory.hpp"
+#include "engines/soft/contacts.hpp"
+
+/// The loops of ContactStages over pairs and contacts.
+namespace chute::soft {
+
+/// Which pairs touch? Most do not, so a look at coarse places decides nearly always; this is the loop that a
+/// run spends most of its time in. The hit is 1 where they surely touch and 2 where that is in doubt.
+template <int D>
+struct CoarseTouchKernel {
+  static constexpr int words = search::CoarsePlaces<D>::words;
+  std::array<const std::uint64_t*, words> word;
+  Vec<D> quantum;
+  const std::int32_t *first, *second;
+  const double* reach_squared;
+  double relative_margin, margin;
+  std::size_t count;
+  std::int64_t *hit, *doubt;
+
+  void operator()() const {
+    const auto place = word;
+    const auto unit = quantum;
+    const auto *i = first, *j = second;
+    const auto* reach2 = reach_squared;
+    const double more = 1 + relative_margin, less = 1 - relative_margin, slack = margin;
+    const auto n = count;
+    auto* out = hit;
+    std::int64_t uncertain = 0;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t p = 0; p < n; ++p) {
+      double d2 = 0;
+      for (int w = 0; w < words; ++w) {
+        const std::uint64_t way = place[w][j[p]] - place[w][i[p]] + 0x8000000080000000U;
+        const double low = unit[2 * w] * search::CoarsePlaces<D>::quanta(way & 0xffffffffU);
+        d2 += low * low;
+        if (2 * w + 1 < D) {
+          const double high = unit[2 * w + 1] * search::CoarsePlaces<D>::quanta(way >> 32);
+          d2 += high * high;
+        }
+      }
+      const bool maybe = d2 < reach2[p] * more + slack, surely = d2 < reach2[p] * less - slack;
+      const std::int64_t hits = maybe + (maybe != surely);
+      out[p] = hits;
+      uncertain |= hits;
+    }
+    *doubt = uncertain & 2;
+  }
+};
+
+/// The same by the places themselves.
+template <int D>
+struct TouchKernel {
+  std::array<const double*, D> place;
+  const std::int32_t *first, *second;
+  const double* reach_squared;
+  Vec<D> length, half;
+  std::size_t count;
+  std::int64_t* hit;
+
+  void operator()() const {
+    const auto r = place;
+    const auto *i = first, *j = second;
+    const auto* reach2 = reach_squared;
+    const auto full = length, fold = half;
+    const auto n = count;
+    auto* out = hit;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t p = 0; p < n; ++p) {
+      double d2 = 0;
+      for (int k = 0; k < D; ++k) {
+        const double d = Domain<D>::nearest_image(r[k][j[p]] - r[k][i[p]], full[k], fold[k]);
+        d2 += d * d;
+      }
+      out[p] = d2 < reach2[p];
+    }
+  }
+};
+
+/// Frame and relative motion of each contact: (2.3), (2.4), (2.6), (2.7).
+template <int D>
+struct GeometryKernel {
+  static constexpr int T = turns<D>;
+  std::array<const double*, D> place, velocity;
+  std::array<const double*, T> spin;
+  const double* radius;
+  const std::int32_t *first, *second;
+  Vec<D> length, half;
+  Part range;
+  std::array<double*, D> normal;
+  double *overlap, *closing;
+  std::array<double*, T> slip;
+  double deepest;
+  std::int64_t* deep;  // is any overlap deeper than that?
+
+  void operator()() const {
+    const auto r = place, v = velocity;
+    const auto w = spin;
+    const auto* R = radius;
+    const auto *fi = first, *se = second;
+    const auto full = length, fold = half;
+    const auto [begin, end] = range;
+    const auto n_out = normal;
+    auto *xi_out = overlap, *closing_out = closing;
+    const auto slip_out = slip;
+    const double limit = deepest;
+    std::int64_t any = 0;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t c = begin; c < end; ++c) {
+      const auto i = fi[c], j = se[c];
+      Vec<D> n, dv;
+      for (int k = 0; k < D; ++k) {
+        n[k] = Domain<D>::nearest_image(r[k][j] - r[k][i], full[k], fold[k]);
+        dv[k] = v[k][j] - v[k][i];
+      }
+      const double distance = std::sqrt(dot(n, n));
+      const double inverse = 1 / distance;
+      for (int k = 0; k < D; ++k) n[k] *= inverse;
+      const double v_n = dot(dv, n);
+      if constexpr (D == 2) {
+        // (1.14) with s = (n_y, −n_x)
+        slip_out[0][c] = dv[0] * n[1] - dv[1] * n[0] + R[i] * w[0][i] + R[j] * w[0][j];
+      } else {
+        // (2.7), with the sum of the spins (the printed difference contradicts (1.14))
+        Vec<3> spin_sum;
+        for (int k = 0; k < 3; ++k) spin_sum[k] = R[i] * w[k][i] + R[j] * w[k][j];
+        const auto turn = cross(n, spin_sum);
+        for (int k = 0; k < 3; ++k) slip_out[k][c] = dv[k] - v_n * n[k] + turn[k];
+      }
+      for (int k = 0; k < D; ++k) n_out[k][c] = n[k];
+      const double xi = R[i] + R[j] - distance;
+      any |= xi > limit;
+      xi_out[c] = xi;
+      closing_out[c] = -v_n;
+    }
+    *deep = any;
+  }
+};
+
+template <class Law>
+struct NormalKernel {
+  Law law;
+  double least;  // the force is clipped there: 0 without attraction, else −∞
+  const double *overlap, *closing, *m_eff, *r_eff;
+  Part range;
+  double *force, *loss;
+
+  void operator()() const {
+    const Law f = law;
+    const double floor = least;
+    const auto *xi = overlap, *dxi = closing, *m = m_eff, *R = r_eff;
+    const auto [begin, end] = range;
+    auto *force_out = force, *loss_out = loss;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t c = begin; c < end; ++c) {
+      const auto result = f(xi[c], dxi[c], laws::Pair(m[c], R[c]));
+      const double clipped = result.total < floor ? floor : result.total;
+      force_out[c] = clipped;
+      loss_out[c] = result.loss_rate + (clipped - result.total) * dxi[c];  // what the spring gives is lost
+    }
+  }
+};
+
+/// The same for a law with a memory. Such laws branch and call functions; there is nothing to vectorise.
+template <class Law>
+void remembering_normal(const Law& law, std::array<double*, static_cast<std::size_t>(Law::memory)> columns,
+                        double inverse_duration, const double* overlap, const double* closing,
+                        const double* m_eff, const double* r_eff, Part range, double* force, double* loss,
+                        double* stored) {
+  for (std::size_t c = range.begin; c < range.end; ++c) {
+    std::array<double, static_cast<std::size_t>(Law::memory)> memory;
+    for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = columns[k][c];
+    const auto result = law(overlap[c], closing[c], laws::Pair(m_eff[c], r_eff[c]), memory);
+    for (std::size_t k = 0; k < memory.size(); ++k) columns[k][c] = memory[k];
+    force[c] = result.total;
+    loss[c] = result.loss * inverse_duration;
+    stored[c] = law.energy(overlap[c], laws::Pair(m_eff[c], r_eff[c]), memory);
+  }
+}
+
+template <class Law, int T>
+struct ShearKernel {
+  Law law;
+  std::array<const double*, T> slip;
+  const double *normal_force, *m_eff;
+  Part range;
+  std::array<double*, T> force;
+  double* loss;
+
+  void operator()() const {
+    const Law f = law;
+    const auto v_s = slip;
+    const auto *f_n = normal_force, *m = m_eff;
+    const auto [begin, end] = range;
+    const auto force_out = force;
+    auto* loss_out = loss;
+    CHUTE_VECTOR_LOOP
+    for (std::size_t c = begin; c < end; ++c) {
+      Vec<T> v;
+      for (int k = 0; k < T; ++k) v[k] = v_s[k][c];
+      const Vec<T> result = f(v, f_n[c], m[c]);
+      for (int k = 0; k < T; ++k) force_out[k][c] = result[k];
+      loss_out[c] = -dot(result, v);
+    }
+  }
+};
+
+/// What the surfaces of each contact do, for laws with a memory. What they take is the work done against them
+/// minus the change of what is stored: work by the mean of the forces at the ends of the step, which for a
+/// spring is exact. A force that is there at once when a contact begins or ends acts for half a step before
+/// or after, as it does in the integration.
+template <class Law, int D>
+void remembering_shear(const Law& law, ContactMemory<D>& memory, double duration, Part range,
+                       Contacts<D>& contacts) {
+  constexpr int T = turns<D>;
+  const double inverse_duration = duration > 0 ? 1 / duration : 0;
+  for (std::size_t c = range.begin; c < range.end; ++c) {
+    laws::Slip<T> slip{
+        {}, contacts.normal_force[c], contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c])};
+    Vec<T> before, way;
+    for (int k = 0; k < T; ++k) {
+      slip.way[k] = memory.way()[k][c];
+      way[k] = memory.fresh(c) ? duration * contacts.slip[k][c] : slip.way[k];
+      before[k] = memory.previous_force(k)[c];
+    }
+    typename Law::template Memory<T> own;
+    for (int v = 0; v < Law::vectors; ++v)
+      for (int k = 0; k < T; ++k) own.vector[static_cast<std::size_t>(v)][k] = memory.vector_column(v, k)[c];
+    for (int s = 0; s < Law::scalars; ++s)
+      own.scalar[static_cast<std::size_t>(s)] = memory.scalar_column(s)[c];
+
+    const Vec<T> force = law(slip, own);
+    const double stored = law.energy(slip, own);
+    const double taken = -0.5 * dot(before + force, way) - (stored - memory.stored_column()[c]);
+
+    for (int v = 0; v < Law::vectors; ++v)
+      for (int k = 0; k < T; ++k) memory.vector_column(v, k)[c] = own.vector[static_cast<std::size_t>(v)][k];
+    for (int s = 0; s < Law::scalars; ++s)
+      memory.scalar_column(s)[c] = own.scalar[static_cast<std::size_t>(s)];
+    for (int k = 0; k < T; ++k) memory.previous_force(k)[c] = contacts.shear_force[k][c] = force[k];
+    memory.stored_column()[c] = stored;
+    contacts.stored[c] += stored;
+    contacts.shear_loss[c] = taken * inverse_duration;
+  }
+}
+
+}  // namespace chute::soft

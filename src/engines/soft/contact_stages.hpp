@@ -1,0 +1,91 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/domain.hpp"
+#include "core/grains.hpp"
+#include "core/kernel.hpp"
+#include "laws/list.hpp"
+#include "search/neighbour_list.hpp"
+#include "engines/soft/contact_memory.hpp"
+#include "engines/soft/contacts.hpp"
+
+namespace chute::soft {
+
+/// The stages that turn places and velocities into forces, each a vectorised loop over arrays:
+/// find touching → geometry → memory → normal → shear → apply. A law is known inside its own stage only, so
+/// the compiled loops add up over the laws instead of multiplying. Where no law has a memory, that stage does
+/// nothing.
+template <int D>
+class ContactStages {
+ public:
+  /// Which of the pairs touch, before their grains are named; kept, so that a step allocates nothing.
+  struct Touching {
+    std::vector<std::int32_t> pair;
+    void reserve(std::size_t pairs) {
+      if (pair.size() < pairs) pair.resize(pairs);
+    }
+  };
+
+  ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa = best_isa(),
+                SlipRule rule = SlipRule::trapezoid);
+
+  /// Fills `contacts` from the pairs that may touch, shared out among a team. Allocates only when the list
+  /// has become longer than ever before. `duration` is the time since the previous call; with 0 nothing
+  /// happens to what the contacts remember, but for limits that depend on the present normal force.
+  void evaluate(const search::Candidates<D>& candidates, const Grains<D>& grains, Contacts<D>& contacts,
+                double duration = 0, Team& team = Team::alone());
+
+  /// The same for some ranges of the pairs, in ascending order, by one thread. Only for laws without a
+  /// memory.
+  void evaluate(const search::Candidates<D>& candidates, std::span<const Part> pairs, const Grains<D>& grains,
+                Contacts<D>& contacts, Touching& touching);
+
+  /// The same for contacts with walls, whose geometry is there already (WallContacts). They have a memory of their
+  /// own.
+  void evaluate_walls(const Grains<D>& grains, Contacts<D>& contacts, double duration);
+  /// Adds what they do to each grain.
+  void apply_walls(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums) const;
+
+  /// Adds what the contacts do to each grain, in their order, over `duration`.
+  void apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums,
+             Team& team) const;
+  /// The same apart: forces and torques on the moving grains only, of all contacts;
+  void apply_forces(const Contacts<D>& contacts, const Grains<D>& grains, GrainSums<D>& sums) const;
+  /// and the losses of those contacts that begin with a grain in `range`.
+  void apply_losses(const Contacts<D>& contacts, Part range, double duration, GrainSums<D>& sums) const;
+
+  /// From now on evaluations tell whether any overlap is deeper than this (Contacts::deep).
+  void watch_for(double deepest) { deepest_ = deepest; }
+
+  /// Energy stored in the contacts, in both directions.
+  double elastic_energy(const Contacts<D>& contacts) const;
+
+  const ContactMemory<D>& memory() const { return memory_; }
+  ContactMemory<D>& memory() { return memory_; }
+  const ContactMemory<D>& wall_memory() const { return wall_memory_; }
+  ContactMemory<D>& wall_memory() { return wall_memory_; }
+  double deepest() const { return deepest_; }
+
+ private:
+  Domain<D> domain_;
+  laws::ContactLaws laws_;
+  Isa isa_;
+  ContactMemory<D> memory_, wall_memory_;
+  bool needs_radius_;
+  double deepest_ = std::numeric_limits<double>::infinity();
+  Touching touching_;
+  std::vector<std::size_t> found_;  // by each of the team
+
+  std::size_t find(const search::Candidates<D>& candidates, const Grains<D>& grains, Part range,
+                   std::int32_t* pair) const;
+  std::size_t find_in(const search::Candidates<D>& candidates, const Grains<D>& grains, Part range,
+                      std::int64_t* hit, std::int32_t* pair) const;
+  void name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts, const Team& team) const;
+  void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
+  void normal_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const;
+  void shear_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const;
+};
+
+}  // namespace chute::soft

@@ -1,0 +1,366 @@
+#include "engines/soft/soft_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "common/error.hpp"
+#include "core/not_a_number.hpp"
+
+namespace chute::soft {
+
+template <int D>
+SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
+    : setup_(setup),
+      grains_(std::move(grains)),
+      list_(setup.domain, setup.skins, setup.search, setup.isa),
+      stages_(setup.domain, setup.laws, setup.isa,
+              setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
+      integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
+      walls_(setup.walls),
+      touches_(grains_.moving, setup.contact_time),
+      team_(std::make_unique<Team>(setup.threads)),
+      tiles_(std::make_unique<TimeTiles<D>>(*strips_, setup.many.grains_per_tile)) {
+  sums_.resize(grains_.size());
+  const auto smallest = std::min_element(grains_.radius.begin(), grains_.radius.end());
+  if (smallest != grains_.radius.end()) stages_.watch_for(setup.deepest_overlap * *smallest);
+  for (int k = 0; k < D; ++k)
+    start_place_[k].assign(grains_.position[k].begin(),
+                           grains_.position[k].begin() + static_cast<std::ptrdiff_t>(grains_.moving));
+  forces(0);
+  integrator_.start(grains_, sums_);
+  account_.start = energy().stored();
+}
+
+template <int D>
+void SoftEngine<D>::advance(std::int64_t step) {
+  if (step <= step_) return;
+  integrator_.predict(grains_, sums_, *team_);
+  for (;;) {
+    if (sorts() && step_ % setup_.many.sort_every == 0) sort();
+    if (advance_in_tiles(step)) continue;
+    ++step_;
+    forces(setup_.time_step);
+    account_.shear_loss += stages_.memory().released();
+    if (walls_.any()) account_.shear_loss += stages_.wall_memory().released();
+    if (contacts_.deep || wall_contacts_.deep) check_overlaps();
+    if (collecting_) find_impacts();
+    if (step_ == step) break;
+    integrator_.correct_and_predict(grains_, sums_, *team_);
+  }
+  integrator_.correct(grains_, sums_, *team_);
+  check_floor();
+}
+
+template <int D>
+search::Candidates<D> SoftEngine<D>::candidates() {
+  try {
+    return list_.near(grains_, *team_);
+  } catch (const NotANumber& error) {
+    leave_physics(error.grain, "its place is not a number: the time step is too long for these forces");
+  }
+}
+
+/// Forces on the moving grains must be 0 before.
+template <int D>
+void SoftEngine<D>::forces(double duration) {
+  stages_.evaluate(candidates(), grains_, contacts_, duration, *team_);
+  sums_.clear({grains_.moving, grains_.size()});
+  stages_.apply(contacts_, grains_, duration, sums_, *team_);
+  if (!walls_.any()) return;
+  walls_.find(grains_, stages_.deepest(), wall_contacts_);
+  stages_.evaluate_walls(grains_, wall_contacts_, duration);
+  stages_.apply_walls(wall_contacts_, grains_, duration, sums_);
+}
+
+/// What remembers grains by their ids from step to step does not let them be sorted.
+template <int D>
+bool SoftEngine<D>::sorts() const {
+  return grains_.moving >= setup_.many.sort_from && !collecting_ && !stages_.memory().needed();
+}
+
+/// Takes some of the steps on the way to `step`, from predicted places to predicted places, if it can. A block that must
+/// be undone has cost its steps for nothing; where that happens again and again, single steps follow for ever longer.
+template <int D>
+bool SoftEngine<D>::advance_in_tiles(std::int64_t step) {
+  constexpr std::int64_t first_pause = 64, longest_pause = 4096;  // steps: a block's, and some hundred times that
+  const auto& many = setup_.many;
+  const bool pays = team_->size() > 1 || grains_.moving > 2 * many.grains_per_tile;
+  if (!many.tiles || !pays || walls_.any() || order_.empty() || step_ < no_tiles_until_ || !sorts()) return false;
+  const StepParts<D> parts{grains_, sums_, list_, stages_, integrator_, *team_, setup_.time_step};
+  const std::int64_t unsorted = many.sort_every - step_ % many.sort_every;
+  candidates();  // up to date
+  const std::int64_t steps = tiles_->possible(parts, std::min(step - 1 - step_, unsorted));
+  if (steps == 0) return false;
+  if (!tiles_->advance(parts, steps)) {
+    ++undone_;
+    tile_pause_ = std::clamp(2 * tile_pause_, first_pause, longest_pause);
+    no_tiles_until_ = step_ + tile_pause_;
+    return false;
+  }
+  tile_pause_ = 0;
+  step_ += steps;
+  tiled_steps_ += steps;
+  return true;
+}
+
+template <int D>
+void SoftEngine<D>::sort() {
+  reorder(strips_->sort(grains_, setup_.domain));
+  tiles_->sorted();
+}
+
+template <int D>
+void SoftEngine<D>::reorder(std::span<const std::int32_t> from) {
+  if (order_.empty()) {
+    order_.resize(grains_.moving);
+    std::iota(order_.begin(), order_.end(), 0);
+  }
+  grains_.reorder(from);
+  for (auto& order : integrator_.derivatives())
+    for (auto& a : order)
+      if (!a.empty()) chute::reorder(a, from);
+  chute::reorder(sums_.normal_loss, from);
+  chute::reorder(sums_.shear_loss, from);
+  chute::reorder(order_, from);
+  list_.forget();
+}
+
+/// The order of ids again, with the contacts of this instant.
+template <int D>
+void SoftEngine<D>::back_to_ids() {
+  if (order_.empty()) return;
+  reorder(places());
+  order_.clear();
+  sums_.clear({0, grains_.moving});
+  forces(0);
+}
+
+template <int D>
+void SoftEngine<D>::check_overlaps() const {
+  for_contacts([&](const Contacts<D>& contacts, std::size_t c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
+    const bool wall = j >= grains_.size();
+    const double depth =
+        contacts.overlap[c] / (wall ? grains_.radius[i] : std::min(grains_.radius[i], grains_.radius[j]));
+    if (depth > setup_.deepest_overlap)
+      leave_physics(i, fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): stiffness is too low for "
+                                   "these velocities",
+                                   wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap));
+  });
+}
+
+/// each(contacts, c) for all contacts: of grains, then with walls.
+template <int D>
+template <class Each>
+void SoftEngine<D>::for_contacts(const Each& each) const {
+  for (const auto* contacts : {&contacts_, &wall_contacts_})
+    for (std::size_t c = 0; c < contacts->count; ++c) each(*contacts, c);
+}
+
+template <int D>
+void SoftEngine<D>::find_impacts() {
+  // Both lists are ordered by (i, j): a merge finds the contacts that were not there a step ago, and those
+  // that are there no more. Ends come first: a contact that begins finds the others as they are now.
+  std::swap(touched_, touched_before_);
+  remember_touching();
+  const auto id = [](std::int32_t k) { return static_cast<std::size_t>(k); };
+  auto now = touched_.begin();
+  for (const auto& pair : touched_before_) {
+    while (now != touched_.end() && *now < pair) ++now;
+    if (now == touched_.end() || *now != pair) touches_.end(time(), id(pair.first), id(pair.second));
+  }
+  auto old = touched_before_.begin();
+  for (const auto& pair : touched_) {
+    while (old != touched_before_.end() && *old < pair) ++old;
+    if (old != touched_before_.end() && *old == pair) continue;
+    Impact begun = impact(id(pair.first), id(pair.second));
+    touches_.begin(begun);
+    if (id(pair.second) >= grains_.size()) begun.bead = wall_id(id(pair.second) - grains_.size());
+    impacts_.push_back(begun);
+  }
+}
+
+/// The contact of i and j, or of i and a wall, began within the last step and no force has acted yet: the predicted
+/// velocities are those of free flight, so this is the state just before the impact.
+template <int D>
+Impact SoftEngine<D>::impact(std::size_t i, std::size_t j) const {
+  std::size_t grain = i, bead = j;
+  Vec<D> n, v = grains_.speed(i), surface = grains_.place(i);  // n from bead to grain
+  if (j >= grains_.size()) {
+    n = setup_.walls[j - grains_.size()].normal;
+    surface = surface - grains_.radius[i] * n;
+  } else {
+    const Vec<D> way = setup_.domain.way(grains_.place(i), grains_.place(j));
+    n = -(1 / norm(way)) * way;
+    v = v - grains_.speed(j);
+    if (j < grains_.moving) {  // of two moving grains the first counts as the bead
+      std::swap(grain, bead);
+      n = -1.0 * n, v = -1.0 * v;
+    }
+    surface = grains_.place(bead) + grains_.radius[bead] * n;
+  }
+  Impact impact = impact_at(time(), n, v, surface);
+  impact.grain = static_cast<std::int64_t>(grain);
+  impact.bead = static_cast<std::int64_t>(bead);
+  return impact;
+}
+
+template <int D>
+void SoftEngine<D>::collect_impacts(bool on) {
+  if (on && !collecting_) {  // what touches already is no impact
+    back_to_ids();
+    remember_touching();
+    touches_ = TouchLog(grains_.moving, setup_.contact_time);
+    for (const auto& [i, j] : touched_)
+      touches_.touch(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  }
+  collecting_ = on;
+}
+
+template <int D>
+void SoftEngine<D>::remember_touching() {
+  touched_.clear();
+  for_contacts([&](const Contacts<D>& contacts, std::size_t c) { touched_.emplace_back(contacts.i[c], contacts.j[c]); });
+  if (wall_contacts_.count > 0) std::sort(touched_.begin(), touched_.end());
+}
+
+template <int D>
+std::vector<Impact> SoftEngine<D>::take_impacts() {
+  return std::exchange(impacts_, {});
+}
+
+template <int D>
+void SoftEngine<D>::check_floor() const {
+  const auto& height = grains_.position[D - 1];
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    if (height[i] < setup_.floor) leave_physics(i, "it fell through the bed");
+}
+
+template <int D>
+void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
+  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_,
+                              id_at(grain), what));
+}
+
+/// Where each grain is kept, by its id.
+template <int D>
+std::vector<std::int32_t> SoftEngine<D>::places() const {
+  std::vector<std::int32_t> place(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    place[static_cast<std::size_t>(order_[k])] = static_cast<std::int32_t>(k);
+  return place;
+}
+
+template <int D>
+const Grains<D>& SoftEngine<D>::state() const {
+  if (order_.empty()) return grains_;
+  by_id_ = grains_;
+  by_id_.reorder(places());
+  return by_id_;
+}
+
+template <int D>
+GrainsView SoftEngine<D>::grains() const {
+  if (order_.empty()) return view_of(grains_, sums_.force, setup_.domain, time());
+  force_by_id_ = sums_.force;
+  for (auto& f : force_by_id_) chute::reorder(f, places());
+  return view_of(state(), force_by_id_, setup_.domain, time());
+}
+
+template <int D>
+EnergyAccount SoftEngine<D>::energy() const {
+  EnergyAccount e = account_;
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    e.normal_loss += sums_.normal_loss[i];
+    e.shear_loss += sums_.shear_loss[i];
+  }
+  e.add_motion(grains(), setup_.gravity, start_place_);
+  e.elastic = stages_.elastic_energy(contacts_) + stages_.elastic_energy(wall_contacts_);
+  return e;
+}
+
+template <int D>
+Contact SoftEngine<D>::told(const Contacts<D>& contacts, std::size_t c) const {
+  auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
+  const bool wall = j >= grains_.size();
+  Vec<D> n, force;
+  for (int k = 0; k < D; ++k) n[k] = contacts.normal[k][c];
+  force = contacts.normal_force[c] * n;
+  if constexpr (D == 2) {
+    force[0] += contacts.shear_force[0][c] * n[1];
+    force[1] -= contacts.shear_force[0][c] * n[0];
+  } else {
+    for (int k = 0; k < 3; ++k) force[k] += contacts.shear_force[k][c];
+  }
+  Contact contact;
+  contact.overlap = contacts.overlap[c];
+  contact.a = static_cast<std::int64_t>(id_at(i));
+  contact.b = wall ? wall_id(j - grains_.size()) : static_cast<std::int64_t>(id_at(j));
+  if (!wall && contact.b < contact.a) {  // where grains are kept in another order
+    std::swap(contact.a, contact.b), std::swap(i, j);
+    n = -1.0 * n, force = -1.0 * force;
+  }
+  const double arm = grains_.radius[i] - 0.5 * contact.overlap;
+  const double length = wall ? grains_.radius[i] - contact.overlap : grains_.radius[i] + grains_.radius[j] - contact.overlap;
+  contact.point = as_file_vector(grains_.place(i) + arm * n);
+  contact.branch = as_file_vector(length * n);
+  set_force(contact, n, force);
+  return contact;
+}
+
+template <int D>
+std::vector<Contact> SoftEngine<D>::contacts() const {
+  std::vector<Contact> told_of;
+  told_of.reserve(contacts_.count + wall_contacts_.count);
+  for_contacts([&](const Contacts<D>& contacts, std::size_t c) { told_of.push_back(told(contacts, c)); });
+  if (!order_.empty())
+    std::sort(told_of.begin(), told_of.end(),
+              [](const Contact& a, const Contact& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); });
+  return told_of;
+}
+
+/// Everything that changes during a run, for both directions of a checkpoint.
+template <int D>
+template <class Archive, class Self>
+void SoftEngine<D>::transfer(Archive& archive, Self& self) {
+  archive(self.order_, self.grains_, self.integrator_.derivatives(), self.start_place_, self.account_.start,
+          self.account_.shear_loss, self.sums_.normal_loss, self.sums_.shear_loss, self.step_, self.collecting_,
+          self.touched_, self.touches_, self.stages_.memory(), self.stages_.wall_memory());
+}
+
+template <int D>
+void SoftEngine<D>::save(std::ostream& out) const {
+  cereal::PortableBinaryOutputArchive archive(out);
+  transfer(archive, *this);
+}
+
+template <int D>
+void SoftEngine<D>::restore(std::istream& in) {
+  back_to_ids();  // for the constants, which are not in the archive
+  cereal::PortableBinaryInputArchive archive(in);
+  transfer(archive, *this);
+  if (!order_.empty())
+    Grains<D>::for_columns(grains_, [&](const GrainField& field, auto& column) {
+      if (!field.changes) chute::reorder(column, order_);
+    });
+  list_.forget();
+  // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember
+  // is from the forces of the last step, at the predicted places; it must not see the corrected ones.
+  const auto remembered = stages_.memory(), remembered_of_walls = stages_.wall_memory();
+  sums_.clear({0, grains_.moving});
+  forces(0);
+  stages_.memory() = remembered;
+  stages_.wall_memory() = remembered_of_walls;
+}
+
+template class SoftEngine<2>;
+template class SoftEngine<3>;
+
+}  // namespace chute::soft

@@ -1,0 +1,125 @@
+#pragma once
+#include <memory>
+
+#include "core/engine.hpp"
+#include "core/world.hpp"
+#include "search/neighbour_list.hpp"
+#include "engines/soft/contact_stages.hpp"
+#include "engines/soft/integrator.hpp"
+#include "engines/soft/strips.hpp"
+#include "engines/soft/time_tiles.hpp"
+#include "engines/soft/wall_contacts.hpp"
+
+namespace chute::soft {
+
+/// How the engine goes about many grains. `sort_from` and `sort_every` are part of what makes the bytes; the
+/// others only cost or save time.
+struct ManyGrains {
+  std::size_t sort_from = 2000;        ///< so many moving grains are kept in an order of places
+  std::int64_t sort_every = 4096;      ///< steps
+  std::size_t grains_per_tile = 4096;  ///< see TimeTiles
+  bool tiles = true;
+};
+
+/// What a soft-sphere run needs besides its grains.
+template <int D>
+struct SoftSetup : Surroundings<D> {
+  laws::ContactLaws laws{};
+  Scheme scheme = Scheme::gear5;
+  double time_step = 0;
+  typename search::NeighbourList<D>::Skins skins{};
+  double deepest_overlap = 0.25;  ///< of the smallest radius; beyond it the run has left physics
+  double contact_time = 0;  ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
+  search::Method search = search::Method::cells;
+  Isa isa = best_isa();
+  int threads = 1;  ///< results do not depend on it
+  ManyGrains many{};
+};
+
+/// Time-step driven molecular dynamics of soft grains, thesis 2.1.1. A step:
+/// predict → neighbour list → contacts → forces → account → impacts → correct.
+///
+/// Inside, many grains are kept in the order of Strips, and take several steps at once (TimeTiles) where
+/// nobody looks. Outside they always have their ids.
+template <int D>
+class SoftEngine final : public Engine {
+ public:
+  SoftEngine(Grains<D> grains, const SoftSetup<D>& setup);
+
+  std::int64_t step() const override { return step_; }
+  double time_step() const override { return setup_.time_step; }
+  GrainsView grains() const override;
+  EnergyAccount energy() const override;
+  std::vector<Contact> contacts() const override;
+  void collect_impacts(bool on) override;
+  std::vector<Impact> take_impacts() override;
+  void save(std::ostream& out) const override;
+  void restore(std::istream& in) override;
+
+  /// The grains by their ids; a copy if they are kept in another order, which stays until the next call.
+  const Grains<D>& state() const;
+  /// Id of the grain that is kept at this place of the order.
+  std::size_t id_at(std::size_t place) const {
+    return place < order_.size() ? static_cast<std::size_t>(order_[place]) : place;
+  }
+  /// Steps that were taken several at once.
+  std::int64_t tiled_steps() const { return tiled_steps_; }
+  /// How often such steps had to be taken back.
+  std::int64_t undone() const { return undone_; }
+  const search::NeighbourList<D>& neighbours() const { return list_; }
+
+ private:
+  void advance(std::int64_t step) override;
+
+  SoftSetup<D> setup_;
+  Grains<D> grains_;
+  search::NeighbourList<D> list_;
+  ContactStages<D> stages_;
+  Integrator<D> integrator_;
+  WallContacts<D> walls_;
+  Contacts<D> contacts_, wall_contacts_;
+  GrainSums<D> sums_;
+  std::array<Array, D> start_place_;  // of the moving grains, for gravity's work
+  EnergyAccount account_;             // start, and the losses that are no grain's; the rest when asked for
+  std::int64_t step_ = 0;
+  bool collecting_ = false;
+  std::vector<Impact> impacts_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> touched_, touched_before_;  // contacts of the last two steps
+  TouchLog touches_;
+  std::unique_ptr<Team> team_;
+  std::vector<std::int32_t> order_;  // id of the grain at each place; empty: as they are
+  std::unique_ptr<Strips<D>> strips_ = std::make_unique<Strips<D>>();
+  std::unique_ptr<TimeTiles<D>> tiles_;
+  std::int64_t tiled_steps_ = 0, undone_ = 0;
+  std::int64_t tile_pause_ = 0, no_tiles_until_ = 0;  // after blocks that had to be undone
+  mutable Grains<D> by_id_;  // for who looks, if they are kept in another order
+  mutable std::array<Array, D> force_by_id_;
+
+  search::Candidates<D> candidates();
+  void forces(double duration);
+  bool sorts() const;
+  bool advance_in_tiles(std::int64_t step);
+  void sort();
+  void reorder(std::span<const std::int32_t> from);
+  void back_to_ids();
+  std::vector<std::int32_t> places() const;
+  void check_overlaps() const;
+  void find_impacts();
+  void remember_touching();
+  Contact told(const Contacts<D>& contacts, std::size_t c) const;
+  template <class Each>
+  void for_contacts(const Each& each) const;
+  Impact impact(std::size_t i, std::size_t j) const;
+  void check_floor() const;
+  [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self);
+};
+
+/// The skins that make steps cheapest for grains of about the given diameter; results do not depend on them.
+template <int D>
+typename search::NeighbourList<D>::Skins usual_skins(double diameter) {
+  return {0.04 * diameter, 0.3 * diameter};
+}
+
+}  // namespace chute::soft

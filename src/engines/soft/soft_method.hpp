@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+
+#include "engines/kind/method.hpp"
+#include "engines/soft/integrator.hpp"
+
+namespace chute::soft {
+
+/// `engine.method = "soft"`.
+class SoftMethod final : public Described<engines::Method, SoftMethod> {
+ public:
+  static constexpr std::string_view word = "soft", text = "time-step driven molecular dynamics of soft grains (2.1.1)";
+  Scheme integrator = Scheme::gear5;
+  static constexpr std::array<std::string_view, 2> integrators{"gear5", "verlet"};
+  double steps_per_contact = 50;
+  std::optional<double> time_step;
+  double deepest_overlap = 0.25;
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.choice("integrator", integrator, integrators, "(2.11) to (2.14), or velocity Verlet");
+    a.value("steps_per_contact", steps_per_contact, at_least(5), "time steps in the shortest contact time t_n");
+    a.value("time_step", time_step, positive, "instead of steps_per_contact");
+    a.value("deepest_overlap", deepest_overlap, Range{0, 1, true, false},
+            "of the smaller radius; beyond it the run has left physics and stops");
+  }
+  Offers offers() const override;
+  double step(const engines::Setting& setting) const override;
+  std::vector<Fact> facts(const engines::Setting& setting) const override;
+  double seconds_per_step(const engines::Setting& setting) const override;
+  std::unique_ptr<Engine> make(World<2> world, const engines::Setting& setting, int threads) const override;
+  std::unique_ptr<Engine> make(World<3> world, const engines::Setting& setting, int threads) const override;
+};
+
+}  // namespace chute::soft

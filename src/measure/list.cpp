@@ -1,0 +1,19 @@
+#include "measure/outputs.hpp"
+
+namespace chute::measure {
+
+Catalogue<Output>& list() {
+  static Catalogue<Output> all{kind_of<Output, FramesOutput>(),           kind_of<Output, SeriesOutput>(),
+                               kind_of<Output, ProfilesOutput>(),         kind_of<Output, FieldsOutput>(),
+                               kind_of<Output, ImpactsOutput>(),          kind_of<Output, ImpactHistogramsOutput>()};
+  return all;
+}
+
+std::vector<std::string> all_files() {
+  std::vector<std::string> names;
+  for (const auto& kind : list())
+    for (const auto& name : kind.make()->files()) names.push_back(name);
+  return names;
+}
+
+}  // namespace chute::measure

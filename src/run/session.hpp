@@ -1,0 +1,55 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "measure/series.hpp"
+#include "scene/scene.hpp"
+
+namespace chute::run {
+
+/// The one way in which a scene runs: its engine, those who watch it, and the loop that takes it from look to look. `run`
+/// adds a directory with files and checkpoints, `sweep` and figures only want to know what became of it.
+class Session {
+ public:
+  /// Makes the world and the engine; InputError or WorkError if the scene cannot be run. With an empty `directory` nothing
+  /// is written.
+  Session(const scene::Scene& scene, int threads, const std::filesystem::path& directory = {});
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  Engine& engine() { return *engine_; }
+  const Engine& engine() const { return *engine_; }
+  std::int64_t last_step() const { return last_step_; }
+  double time_step() const { return run_.time_step; }
+  const measure::RunContext& context() const { return run_; }
+  double part_done() const { return static_cast<double>(engine_->step()) / static_cast<double>(last_step_); }
+
+  /// The look at the start; not of a session that is loaded.
+  void begin();
+  /// Goes on to the next step at which somebody looks, but no farther than `until`, and lets them look.
+  void advance(std::int64_t until);
+
+  const measure::SeriesObserver& series() const { return *series_; }
+
+  /// All files as of now.
+  void write() const;
+  /// The grains as a VTK file, for checkpoints.
+  std::string grains() const { return io::grains_vtp(engine_->grains(), run_.facts); }
+  void save(std::ostream& out) const;
+  void load(std::istream& in);
+
+ private:
+  measure::RunContext run_;
+  std::unique_ptr<Engine> engine_;
+  std::int64_t last_step_ = 1;
+  std::vector<std::unique_ptr<measure::Observer>> observers_;
+  measure::SeriesObserver* series_ = nullptr;
+
+  void look();
+  /// Starts or goes on collecting what somebody wants now.
+  void prepare();
+};
+
+}  // namespace chute::run

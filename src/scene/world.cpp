@@ -1,0 +1,256 @@
+#include "scene/world.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "core/random.hpp"
+#include "core/sphere.hpp"
+#include "starts/launch_keys.hpp"
+
+namespace chute::scene {
+namespace {
+
+std::uint64_t seed_of(const Scene& scene) { return static_cast<std::uint64_t>(scene.seed); }
+
+beds::Site site_of(const Scene& scene) { return {scene.dimensions, seed_of(scene)}; }
+
+/// Where the domain repeats: [k] for the k-th coordinate, 0 where it does not.
+struct Periods {
+  std::array<double, 3> length{};
+  std::optional<Refusal> wrong;
+};
+
+Periods periods_of(const Scene& scene, const beds::Ground& ground) {
+  Periods periods;
+  const auto dimensions = static_cast<std::size_t>(scene.dimensions);
+  const bool flat = dimensions == 2;
+  const auto names = scene.domain.periodic.value_or(
+      flat ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"});
+  const auto refuse = [&](const char* key, const std::string& message) { periods.wrong = Refusal{key, message}; };
+  for (const auto& name : names) {
+    const auto k = name.size() == 1 ? static_cast<std::size_t>(name[0] - 'x') : dimensions;
+    if (k >= dimensions) {
+      refuse("domain.periodic", fmt::format("\"{}\" is no direction, allowed: {}", name, flat ? "x, y" : "x, y, z"));
+      return periods;
+    }
+    const auto& size = scene.domain.size;
+    const std::optional<double> given = size && k < size->size() ? std::optional((*size)[k]) : std::nullopt;
+    std::optional<double> of_bed;
+    if (k == 0) of_bed = ground.length;
+    if (k == 1 && !flat) of_bed = ground.width;
+    if (given && of_bed && std::abs(*given / *of_bed - 1) > 1e-9)
+      refuse("domain.size", fmt::format("{:.6g} along {} is not the bed's own length, {:.6g}", *given, name, *of_bed));
+    if (!given && !of_bed)
+      refuse("domain.size", fmt::format("missing: how long is a period along {}? Neither the bed nor domain.size says", name));
+    periods.length[k] = of_bed.value_or(given.value_or(0));
+  }
+  return periods;
+}
+
+std::optional<double> given_diameter(const Scene& scene) {
+  if (scene.grains.diameter) return scene.grains.diameter->mean;
+  if (scene.grains.size_ratio) return *scene.grains.size_ratio * scene.bed->diameter;
+  return {};
+}
+
+/// Radii of the grains that the scene describes, in the order of their ids.
+std::vector<double> radii_of(const Scene& scene) {
+  constexpr double farthest = 3;  // standard deviations
+  const double d = given_diameter(scene).value_or(1), std = scene.grains.diameter ? scene.grains.diameter->std : 0;
+  std::vector<double> radii;
+  for (std::int64_t i = 0; i < scene.grains.count; ++i) {
+    double z = 0;
+    if (std > 0)
+      for (Random random(seed_of(scene), Purpose::sizes, static_cast<std::uint64_t>(i));;)
+        if (z = random.normal(); std::abs(z) <= farthest) break;
+    radii.push_back((d + std * z) / 2);
+  }
+  return radii;
+}
+
+starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const Periods& periods) {
+  const bool flat = scene.dimensions == 2;
+  starts::Opening opening{scene.dimensions, seed_of(scene), periods.length[0], flat ? 0 : periods.length[1], ground,
+                          scene.bed->diameter, given_diameter(scene).value_or(scene.bed->diameter),
+                          scene.grains.independent, {}};
+  if (!scene.grains.start->brings_grains()) opening.radii = radii_of(scene);
+  return opening;
+}
+
+/// Sizes of the grains, whoever says them.
+struct Sizes {
+  double mean_diameter = 1, mean_mass = 1, smallest = 0, largest = 0;  // radii
+  std::int64_t count = 1;
+};
+
+Sizes sizes_of(const Scene& scene) {
+  Sizes sizes;
+  std::vector<double> radii, masses;
+  if (scene.grains.start->brings_grains()) {
+    const auto ground = scene.bed->lay(site_of(scene));
+    for (const auto& launch : scene.grains.start->begin(opening_of(scene, ground, periods_of(scene, ground)))) {
+      radii.push_back(launch.radius);
+      masses.push_back(launch.mass.value_or(sphere_mass(scene.grains.density, launch.radius)));
+    }
+    sizes.mean_diameter = 2 * estimate_of(radii).mean;
+    sizes.mean_mass = estimate_of(masses).mean;
+  } else {
+    radii = radii_of(scene);
+    sizes.mean_diameter = given_diameter(scene).value();
+    sizes.mean_mass = sphere_mass(scene.grains.density, sizes.mean_diameter / 2);
+  }
+  const auto [low, high] = std::minmax_element(radii.begin(), radii.end());
+  sizes.smallest = *low, sizes.largest = *high;
+  sizes.count = static_cast<std::int64_t>(radii.size());
+  return sizes;
+}
+
+}  // namespace
+
+engines::Setting setting_of(const Scene& scene) {
+  const Sizes sizes = sizes_of(scene);
+  engines::Setting s;
+  s.si = scene.si();
+  s.seed = seed_of(scene);
+  s.dimensions = scene.dimensions;
+  s.theta = scene.incline.theta();
+  s.gravity = scene.incline.gravity;
+  s.duration = scene.duration;
+  s.between_outputs = std::numeric_limits<double>::infinity();
+  for (const auto& output : scene.output)
+    if (output->wanted()) s.between_outputs = std::min(s.between_outputs, output->rhythm());
+  s.contact = scene.contact;
+  s.mean_diameter = sizes.mean_diameter;
+  s.mean_mass = sizes.mean_mass;
+  s.bead_diameter = scene.bed->diameter;
+  const auto ground = scene.bed->lay(site_of(scene));
+  s.bead_spacing = ground.spacing;
+  s.widest_spacing = ground.widest_spacing;
+  s.grains = sizes.count;
+  s.independent = scene.grains.independent;
+  s.rotation = scene.grains.rotation;
+  if (const auto* start = scene.grains.start.as<starts::MadeStart>()) s.launch_velocity = start->velocity;
+
+  const bool many = s.grains > 1 && !s.independent, beads = !ground.beads.empty();
+  const double r = s.bead_diameter / 2;
+  const auto with_bed = [&](double R, double mass) {
+    return ground.smooth ? laws::Pair(mass, R) : laws::Pair(mass, R * r / (R + r));
+  };
+  const auto add = [&](const char* suffix, const char* name, laws::Pair pair, double reach) {
+    s.pairs.push_back({suffix, name, pair, reach});
+  };
+  const double R = s.mean_diameter / 2, m = s.mean_mass;
+  if (many) add("", "two mean grains", {m / 2, R / 2}, 2 * R);
+  if (beads || ground.smooth)
+    add(many ? " bed" : "", many ? "a mean grain with the bed" : "the grain with the bed", with_bed(R, m),
+        R + (ground.smooth ? 0 : r));
+  if (s.pairs.empty()) add("", "the grain with another", many ? laws::Pair(m / 2, R / 2) : with_bed(R, m), R + r);
+  if (many && sizes.smallest < sizes.largest) {
+    const double least = sphere_mass(scene.grains.density, sizes.smallest);
+    s.stiffest = {"", "the two smallest grains", {least / 2, sizes.smallest / 2}, 2 * sizes.smallest};
+  }
+  return s;
+}
+
+std::optional<Refusal> refusal_of(const Scene& scene) {
+  const auto site = site_of(scene);
+  if (const auto wrong = scene.bed->misfit(site)) return wrong;
+  const auto ground = scene.bed->lay(site);
+  const auto periods = periods_of(scene, ground);
+  if (periods.wrong) return periods.wrong;
+  const auto opening = opening_of(scene, ground, periods);
+  if (const auto wrong = scene.grains.start->misfit(opening)) return wrong;
+
+  const auto setting = setting_of(scene);
+  constexpr double clear = 1.7;  // of the widest contact: with a period shorter than two of them grains touch their images
+  const double needed = 2 * std::max(setting.mean_diameter, beds::widest(ground)) * clear;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (periods.length[k] > 0 && periods.length[k] < needed)
+      return Refusal{k == 0 && ground.length ? scene.bed->length_key() : "domain.size",
+                     fmt::format("a periodic {} of length {:.4g} is too short for grains of diameter {:.4g}: a grain "
+                                 "would touch its own image; needed {:.4g}",
+                                 scene.dimensions == 2 ? "line" : "domain", periods.length[k], setting.mean_diameter, needed)};
+
+  const auto& method = *scene.engine;
+  const auto offers = method.offers();
+  const auto lacks = [&](bool has, const char* what, const std::string& key, bool asked) -> std::optional<Refusal> {
+    if (has || !asked) return {};
+    return Refusal{key, fmt::format("engine.method = \"{}\" {}", scene.engine.word(), what)};
+  };
+  if (auto r = lacks(scene.dimensions == 2 ? offers.in_2d : offers.in_3d,
+                     scene.dimensions == 2 ? "knows no plane" : "knows no third dimension", "dimensions", true))
+    return r;
+  if (auto r = lacks(offers.independent, "lets all grains feel each other", "grains.independent", scene.grains.independent))
+    return r;
+  if (auto r = lacks(offers.walls, "knows no walls", "bed.kind", ground.smooth)) return r;
+  for (const auto& output : scene.output) {
+    if (!output->wanted()) continue;
+    const auto needs = output->needs();
+    if (auto r = lacks(offers.contacts, "tells of no contacts", "output." + output.word(), needs.contacts)) return r;
+    if (auto r = lacks(offers.impacts, "tells of no impacts", "output." + output.word(), needs.impacts)) return r;
+  }
+  return method.refusal(setting);
+}
+
+template <int D>
+World<D> make_world(const Scene& scene) {
+  const auto ground = scene.bed->lay(site_of(scene));
+  const auto periods = periods_of(scene, ground);
+  if (periods.wrong) throw InputError(periods.wrong->key + ": " + periods.wrong->message);
+  World<D> world;
+  auto& grains = world.grains;
+  double mean = 0;
+  const auto launches = scene.grains.start->begin(opening_of(scene, ground, periods));
+  grains.reserve(launches.size() + ground.beads.size());
+  for (const auto& launch : launches) {
+    Vec<D> place;
+    for (int k = 0; k < D; ++k) place[k] = launch.place[static_cast<std::size_t>(k)];
+    const double mass = launch.mass.value_or(sphere_mass(scene.grains.density, launch.radius));
+    grains.add(place, launch.radius, mass, sphere_inertia(mass, launch.radius), true);
+    for (int k = 0; k < D; ++k) grains.velocity[k].back() = launch.velocity[static_cast<std::size_t>(k)];
+    for (int k = 0; k < turns<D>; ++k) grains.spin[k].back() = launch.spin[static_cast<std::size_t>(D == 2 ? 2 : k)];
+    if (launch.orientation)
+      for (int k = 0; k < orientation_numbers<D>; ++k)
+        grains.orientation[k].back() = (*launch.orientation)[static_cast<std::size_t>(k)];
+    grains.material.back() = launch.material;
+    mean += 2 * launch.radius / static_cast<double>(launches.size());
+  }
+  grains.independent = scene.grains.independent;
+  if (!scene.grains.rotation) std::fill(grains.inverse_inertia.begin(), grains.inverse_inertia.end(), 0.0);
+  for (const auto& bead : ground.beads) {
+    Vec<D> place;
+    place[0] = bead.along;
+    if constexpr (D == 3) place[1] = bead.across;
+    place[D - 1] = bead.above;
+    const double mass = sphere_mass(scene.grains.density, bead.radius);
+    grains.add(place, bead.radius, mass, sphere_inertia(mass, bead.radius), false);
+  }
+  for (int k = 0; k < D; ++k)
+    if (const double length = periods.length[static_cast<std::size_t>(k)]; length > 0) world.domain.length[k] = length;
+  world.gravity = gravity_on_incline<D>(scene.incline.gravity, scene.incline.theta());
+  const double d = given_diameter(scene).value_or(mean);
+  if (ground.smooth) {
+    Wall<D> wall;
+    wall.normal[D - 1] = 1;
+    world.walls.push_back(wall);
+  }
+  if (ground.smooth || !ground.beads.empty()) world.floor = -(scene.bed->diameter + d);
+  world.frame.dimensions = D;
+  world.frame.bead_spacing = ground.spacing > 0 ? ground.spacing : d;
+  world.frame.footprint = 1;
+  for (std::size_t k = 0; k + 1 < D; ++k) {
+    const auto& size = scene.domain.size;
+    const double given = size && k < size->size() ? (*size)[k] : 1;
+    world.frame.footprint *= periods.length[k] > 0 ? periods.length[k] : given;
+  }
+  return world;
+}
+
+template World<2> make_world(const Scene&);
+template World<3> make_world(const Scene&);
+
+}  // namespace chute::scene

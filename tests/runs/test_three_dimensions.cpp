@@ -1,0 +1,229 @@
+// Scenes in three dimensions, walls, and starts from what others left.
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "common/error.hpp"
+#include "folder.hpp"
+#include "make_engine.hpp"
+#include "run/run.hpp"
+#include "scene/world.hpp"
+
+using namespace chute;
+using namespace chute::test;
+
+namespace {
+
+const std::string scenes = CHUTE_SOURCE_DIR "/scenes/";
+
+double mean_velocity(const scene::Scene& scene, double from, double to) {
+  const auto made = make_engine(scene);
+  const auto place_at = [&](double t) {
+    made.engine->advance_to(std::llround(t / made.engine->time_step()));
+    return made.engine->grains().unwrapped(0, 0);
+  };
+  const double begin = place_at(from);
+  return (place_at(to) - begin) / (to - from);
+}
+
+/// A box of spheres above a smooth plane, small enough for a test.
+std::vector<std::string> small(std::vector<std::string> more = {}) {
+  more.insert(more.end(), {"grains.count=40", "domain.size=[4, 4]", "contact.normal.stiffness=2e4", "run.duration=14",
+                           "output.frames=", "output.contacts=false", "output.fields=",
+                           "output.profiles={from=12, bin=0.5, every=0.05}"});
+  return more;
+}
+
+std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& file) {
+  std::istringstream in(content(file));
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("#")) continue;
+    auto& row = rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+  }
+  return rows;
+}
+std::vector<double> column(const std::filesystem::path& file, const std::string& name) {
+  const auto rows = rows_of(file);
+  const auto at = std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
+  REQUIRE(at < static_cast<std::ptrdiff_t>(rows[0].size()));
+  std::vector<double> values;
+  for (std::size_t r = 1; r < rows.size(); ++r)
+    values.push_back(rows[r].size() > static_cast<std::size_t>(at) && !rows[r][at].empty() ? std::stod(rows[r][at]) : NAN);
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("a ball in space that runs over a single row, at y = 0, moves as one in the plane") {
+  for (const char* method : {"soft", "event"}) {
+    const auto scene = [&](std::vector<std::string> settings) {
+      settings.insert(settings.end(), {"grains.start.spread=0", std::string("engine.method=") + method, "incline.sin=0.08"});
+      return scene::read_scene(scenes + "ball-2d.toml", settings);
+    };
+    const double plane = mean_velocity(scene({}), 1, 5);
+    const double space = mean_velocity(scene({"dimensions=3", "domain.size=[0.5, 0.2]"}), 1, 5);
+    CAPTURE(method, plane, space);
+    CHECK(space == Approx(plane).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("spheres that fall on a smooth plane come to rest, weigh what they weigh, and their account closes") {
+  const Folder folder;
+  run::RunOptions options;
+  options.directory = folder / "run";
+  const auto scene = scene::read_scene(scenes + "settle-3d.toml", small());
+  run::run_scene(scene, options);
+  const auto world = scene::make_world<3>(scene);
+  const auto& m = world.grains.mass;
+  const double weight = std::accumulate(m.begin(), m.end(), 0.0);
+  const auto load = column(folder / "run" / "profiles.csv", "contact_zz");
+  CHECK(load[0] * 16 == Approx(weight).epsilon(0.01));  // half a diameter above the plane lies no centre
+  const auto eta = column(folder / "run" / "profiles.csv", "eta_exact");
+  const double volume = std::accumulate(world.grains.radius.begin(), world.grains.radius.end(), 0.0,
+                                        [](double sum, double R) { return sum + 4.0 / 3 * M_PI * R * R * R; });
+  CHECK(std::accumulate(eta.begin(), eta.end(), 0.0) * 0.5 * 16 == Approx(volume).epsilon(0.01));
+  const auto series = folder / "run" / "series.csv";
+  const auto moving = column(series, "translation"), work = column(series, "gravity_work"), residual = column(series, "residual");
+  CHECK(moving.back() < 1e-4 * work.back());
+  CHECK(std::abs(residual.back()) < 2e-3 * work.back());
+}
+
+TEST_CASE("a ball on a smooth plane bounces to e_n^2 of its height, with soft and with hard grains") {
+  for (const char* method : {"soft", "event"}) {
+    for (const int dimensions : {2, 3}) {
+      const auto scene = scene::read_scene(
+          scenes + "settle-3d.toml",
+          {"dimensions=" + std::to_string(dimensions), dimensions == 2 ? "domain.periodic=[\"x\"]" : "domain.periodic=[\"x\", \"y\"]",
+           "grains.count=1", "grains.diameter.std=0", "grains.start={lattice=\"none\", height=3.5}",
+           "contact.normal.stiffness=1e7", std::string("engine.method=") + method, "output.impacts={from=0}", "run.duration=6"});
+      const auto made = make_engine(scene);
+      made.engine->collect_impacts(true);
+      made.engine->advance_to(std::llround(6 / made.engine->time_step()));
+      const auto impacts = made.engine->take_impacts();
+      CAPTURE(method, dimensions, impacts.size());
+      REQUIRE(impacts.size() >= 3);
+      CHECK(impacts[0].v_n == Approx(-std::sqrt(2 * 3.0)).epsilon(2e-3));
+      for (std::size_t k = 1; k < 3; ++k) CHECK(impacts[k].v_n == Approx(0.5 * impacts[k - 1].v_n).epsilon(0.02));
+      CHECK(impacts[0].bead == wall_id(0));
+      CHECK(impacts[0].gamma == Approx(0).margin(1e-12));
+    }
+  }
+}
+
+// I = 2/5 m R²: it rolls with 5/7 g sin θ as long as tan θ < 7/2 μ, and slides with g (sin θ − μ cos θ) beyond.
+TEST_CASE("a ball on an inclined smooth plane rolls or slides as the closed form has it") {
+  for (const auto& [degrees, friction] : {std::pair{20.0, 0.5}, {40.0, 0.1}}) {
+    const double theta = degrees * M_PI / 180, t = 3;
+    const auto scene = scene::read_scene(
+        scenes + "settle-3d.toml",
+        {"incline.angle=" + std::to_string(degrees) + " deg", "grains.count=1", "grains.diameter.std=0",
+         "grains.start={lattice=\"none\", height=0.49999}", "contact.tangential.friction=" + std::to_string(friction),
+         "contact.normal.stiffness=1e5", "run.duration=3"});
+    const auto made = make_engine(scene);
+    made.engine->advance_to(std::llround(t / made.engine->time_step()));
+    const bool rolls = std::tan(theta) < 3.5 * friction;
+    const double a = rolls ? 5.0 / 7 * std::sin(theta) : std::sin(theta) - friction * std::cos(theta);
+    const auto grains = made.engine->grains();
+    CAPTURE(degrees, friction);
+    CHECK(grains.velocity[0][0] == Approx(a * t).epsilon(5e-3));
+    if (rolls) CHECK(grains.spin[1][0] * 0.5 == Approx(a * t).epsilon(5e-3));
+    // turned about y, by the way over the radius where it rolls
+    const double angle = 2 * std::atan2(grains.orientation[2][0], grains.orientation[0][0]);
+    if (rolls) CHECK(std::cos(angle) == Approx(std::cos(a * t * t / 2 / 0.5)).margin(0.05));
+    const auto contacts = made.engine->contacts();
+    REQUIRE(contacts.size() == 1);
+    CHECK(contacts[0].b == wall_id(0));
+    CHECK(contacts[0].normal_force == Approx(std::cos(theta)).epsilon(5e-3));
+    CHECK(contacts[0].point[2] == Approx(0).margin(1e-3));
+  }
+}
+
+TEST_CASE("a run of spheres is the same bytes, interrupted or not, with any number of threads") {
+  const Folder folder;
+  for (const char* scene_file : {"settle-3d.toml", "chute-3d.toml"}) {
+    const bool chute = std::string(scene_file) == "chute-3d.toml";
+    auto settings = chute ? std::vector<std::string>{"grains.count=60", "bed.count=5", "bed.count_across=4", "run.duration=1",
+                                                     "output.profiles.from=0.5", "output.fields.from=0.5"}
+                          : small({"run.duration=3", "output.profiles=", "output.checkpoint=0.7"});
+    if (!chute) settings.push_back("run.duration=3"), settings.push_back("output.profiles=");
+    const auto scene = scene::read_scene(scenes + scene_file, settings);
+    run::RunOptions options;
+    options.directory = folder / (std::string("whole") + scene_file);
+    run::run_scene(scene, options);
+    options.directory = folder / (std::string("parts") + scene_file);
+    options.threads = 2;
+    int calls = 0;
+    options.progress = [&](double) { return ++calls < 2; };
+    auto done = run::run_scene(scene, options).finished;
+    options.existing = run::Existing::resume;
+    options.progress = nullptr;
+    if (!done) CHECK(run::run_scene(scene, options).finished);
+    for (const auto& [name, bytes] : tree(folder / (std::string("whole") + scene_file)))
+      if (name != "run.json") CHECK(content(folder / (std::string("parts") + scene_file) / name) == bytes);
+  }
+}
+
+TEST_CASE("a scene goes on from what another run left, with another method too") {
+  const Folder folder;
+  run::RunOptions options;
+  options.directory = folder / "first";
+  const std::vector<std::string> settings = small({"output.checkpoint=1", "run.duration=2"});
+  auto first = scene::read_scene(scenes + "settle-3d.toml", [&] {
+    auto s = settings;
+    s.insert(s.end(), {"run.duration=2", "output.profiles=", "output.frames={every=0.5}"});
+    return s;
+  }());
+  run::run_scene(first, options);
+  const auto from = [&](std::vector<std::string> more) {
+    auto s = settings;
+    s.insert(s.end(), {"run.duration=1", "output.profiles=", "grains.count=", "grains.diameter="});
+    s.insert(s.end(), more.begin(), more.end());
+    return scene::read_scene(scenes + "settle-3d.toml", s);
+  };
+  const auto run = (folder / "first").string();
+  const auto last = make_engine(from({"grains.start={from=\"" + run + "\"}"}));
+  const auto fourth = make_engine(from({"grains.start={from=\"" + run + "\", frame=4}"}));
+  const auto at = make_engine(from({"grains.start={from=\"" + run + "\", time=2.0}"}));
+  const auto file = make_engine(from({"grains.start={from=\"" + run + "/frames/000004.vtp\"}"}));
+  for (const auto* made : {&fourth, &at, &file})
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = last.engine->grains(), b = made->engine->grains();
+      REQUIRE(a.moving == 40);
+      REQUIRE(b.moving == 40);
+      for (std::size_t i = 0; i < 40; ++i) {
+        CHECK(a.position[k][i] == b.position[k][i]);
+        CHECK(a.velocity[k][i] == b.velocity[k][i]);
+        CHECK(a.spin[k][i] == b.spin[k][i]);
+      }
+    }
+  CHECK(last.engine->grains().orientation[0][3] != 1);  // it goes on turned as it was
+  // hard grains take over in flight; soft ones overlap, and hard grains say so
+  const auto hard = from({"grains.start={from=\"" + run + "\", frame=0}", "engine.method=event"});
+  const auto other = make_engine(hard);
+  other.engine->advance_to(20);
+  CHECK(other.engine->grains().moving == 40);
+  const auto refused = [&](const std::string& start) {
+    return message<InputError>([&] { from({"grains.start={" + start + "}"}); });
+  };
+  CHECK_THAT(refused("from=\"" + run + "\", frame=99"), Catch::Contains("frame: 99 is not there, the run has frames 0 to 4"));
+  CHECK_THAT(refused("from=\"" + run + "\", time=0.3"), Catch::Contains("no frame at 0.3"));
+  CHECK_THAT(refused("from=\"nowhere\""), Catch::Contains("nowhere: no such run or file"));
+  write(folder / "damaged.vtp", content(folder / "first" / "frames" / "000004.vtp").substr(0, 2000));
+  CHECK_THAT(refused("from=\"" + (folder / "damaged.vtp").string() + "\""), Catch::Contains("damaged.vtp: "));
+}
+
+TEST_CASE("domains say what they lack") {
+  const auto refused = [&](std::vector<std::string> settings) {
+    return message<InputError>([&] { scene::read_scene(scenes + "settle-3d.toml", settings); });
+  };
+  CHECK_THAT(refused({"domain.size=[8]"}), Catch::Contains("domain.size: missing: how long is a period along y"));
+  CHECK_THAT(refused({"domain.periodic=[\"q\"]"}), Catch::Contains("\"q\" is no direction, allowed: x, y, z"));
+  CHECK_THAT(refused({"bed={kind=\"lattice\", count=8, count_across=8}", "domain.size=[9, 8]"}),
+             Catch::Contains("is not the bed's own length"));
+  CHECK_THAT(refused({"dimensions=2", "bed={kind=\"lattice\", count=8, count_across=8}"}),
+             Catch::Contains("it needs dimensions = 3"));
+  CHECK_THAT(refused({"domain.size=[2, 8]"}), Catch::Contains("would touch its own image"));
+  CHECK_THAT(refused({"engine.method=stochastic"}), Catch::Contains("knows no third dimension"));
+}
