@@ -9,7 +9,7 @@ import os
 import re
 import sys
 
-root = sys.argv[1]
+root = os.path.normpath(sys.argv[1])
 here = os.path.dirname(os.path.abspath(__file__))
 MOST_LINES = 500
 VTK_ROOMS = {"io", "view", "read"}
@@ -70,6 +70,14 @@ for name in sorted(links):
     if any(name in closure(other) for other in links[name] if other in links):
         problems.append("room %s links itself in a circle" % name)
 
+def room_at(folder):
+    """The room of a folder that an #include names."""
+    for half in ("src", "render"):
+        if os.path.join(root, half, folder) in folder_of:
+            return folder_of[os.path.join(root, half, folder)]
+    return folder if folder in EVERYWHERE else None
+
+
 # Includes
 checked = 0
 for half in ("src", "render"):
@@ -82,13 +90,13 @@ for half in ("src", "render"):
             vtk = re.match(r"\s*#\s*include\s*[<\"](vtk\w+\.h)[>\"]", line)
             if vtk and room not in VTK_ROOMS:
                 complain(path, number, "%s: VTK belongs to %s" % (vtk.group(1), ", ".join(sorted(VTK_ROOMS))))
-            own = re.match(r"\s*#\s*include\s*\"([\w]+)/([\w./]+)\"", line)
+            own = re.match(r"\s*#\s*include\s*\"([\w./]+)/[\w.]+\"", line)
             if not own:
                 continue
             checked += 1
-            other = own.group(1)
-            if other not in links and other not in EVERYWHERE:
-                complain(path, number, "%s/%s: there is no room %s" % (own.group(1), own.group(2), other))
+            other = room_at(own.group(1))
+            if other is None:
+                complain(path, number, "%s: there is no room there" % own.group(1))
             elif other not in allowed | {room}:
                 complain(path, number, "%s may not include %s: it does not link it" % (room, other))
 

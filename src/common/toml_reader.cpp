@@ -123,8 +123,8 @@ std::string TomlReader::where(const toml::node* node) const {
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
-  const toml::node* node = table_->get(key);
-  if (!node)
+  const toml::node* node = table_->at_path(key).node();
+  if (!node && key.find('.') == key.npos)
     for (const auto& [other, slip] : *table_) {  // it may be absent because of a slip of the pen
       if (std::find(known_.begin(), known_.end(), other.str()) != known_.end()) continue;
       if (edit_distance(other.str(), key) <=
@@ -132,6 +132,10 @@ void TomlReader::fail(std::string_view key, const std::string& message) const {
         throw InputError(where(&slip) + path(other.str()) +
                          fmt::format(": unknown key, did you mean {}?", key));
     }
+  for (auto inside = key; !node && inside.find('.') != inside.npos;) {  // at the table that should hold it
+    inside = inside.substr(0, inside.rfind('.'));
+    node = table_->at_path(inside).node();
+  }
   throw InputError(where(node ? node : table_) + path(key) + ": " + message);
 }
 

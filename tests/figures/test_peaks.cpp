@@ -64,3 +64,11 @@ TEST_CASE("places do not depend on where the grid of the density begins") {
   REQUIRE(after.size() == 2);
   for (std::size_t k = 0; k < 2; ++k) CHECK(after[k].position - before[k].position == Approx(1000.123));
 }
+
+TEST_CASE("what is not a number is in no peak") {
+  const std::vector<double> values{NAN, 1, 1.001, 0.999, NAN};
+  const auto peaks = chute::figures::find_peaks(values, 0.01);
+  REQUIRE(peaks.size() == 1);
+  CHECK(peaks[0].position == Approx(1));
+  CHECK(chute::figures::find_peaks(std::vector<double>{NAN, NAN}, 0.01).empty());
+}

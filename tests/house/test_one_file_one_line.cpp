@@ -186,7 +186,7 @@ TEST_CASE("a toy bed, method and observer are read, written back, run and observ
     const test::Folder folder;
     const auto scene = scene::parse_scene(scene_text(dimensions), "toy.toml");
     const auto text = scene::to_toml(scene);
-    CHECK_THAT(text, Catch::Contains("kind = \"stairs\"") && Catch::Contains("method = \"drift\"") &&
+    CHECK_THAT(text, Catch::Contains("kind = 'stairs'") && Catch::Contains("method = 'drift'") &&
                          Catch::Contains("[output.summit]"));
     CHECK(scene::to_toml(scene::parse_scene(text, "again.toml")) == text);
     run::RunOptions options;

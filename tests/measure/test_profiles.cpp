@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "measure/fields.hpp"
 #include "measure/profiles.hpp"
 
 using namespace chute;
@@ -144,4 +145,38 @@ TEST_CASE("an average from the very end of a run is that one sample") {
   profiles.sample(discs.at(10), {}, {});
   REQUIRE(profiles.result(0).size() == 1);
   CHECK(profiles.result(0)[0].v[0].mean == 4);
+}
+
+TEST_CASE("one grain thrown far up takes no memory, and is told of") {
+  Discs discs;
+  discs.add(0.5, 0.1, 1);
+  discs.add(1e12, 0.1, 1);
+  measure::Profiles profiles(line(1), 1e-3, {0, 10});
+  profiles.sample(discs.at(5), {}, {});
+  CHECK(profiles.result(0).size() <= measure::most_layers);
+  CHECK(profiles.beyond() == 1);
+  measure::Fields fields(line(1), 1e-3, {0, 10});
+  fields.sample(discs.at(5), {}, {});
+  CHECK(fields.result(0).size() <= measure::most_layers);
+  CHECK(fields.beyond() == 1);
+}
+
+TEST_CASE("in space layers hold volumes: a sphere over two layers, and its three components") {
+  const std::vector<double> x{1}, z{1}, v_x{2}, v_y{-3}, v_z{0.5}, spin{7}, radius{0.4}, mass{1};
+  GrainsView view;
+  view.dimensions = 3;
+  view.time = 5, view.moving = 1;
+  view.position = {x, x, z}, view.velocity = {v_x, v_y, v_z}, view.spin = {x, spin, x};
+  view.radius = radius, view.mass = mass;
+  measure::Profiles profiles({.dimensions = 3, .footprint = 6, .bead_spacing = 1}, 1, {0, 10});
+  profiles.sample(view, {}, {});
+  const auto bins = profiles.result(0);
+  REQUIRE(bins.size() == 2);
+  const double volume = 4.0 / 3 * pi * 0.064;
+  CHECK(bins[0].eta_exact.mean * 6 == Approx(volume / 2));
+  CHECK(bins[1].eta_exact.mean * 6 == Approx(volume / 2));
+  CHECK(bins[1].eta.mean * 6 == Approx(volume));
+  CHECK(bins[1].v[1].mean == -3);
+  CHECK(bins[1].v[2].mean == 0.5);
+  CHECK(bins[1].omega.mean == 7);
 }

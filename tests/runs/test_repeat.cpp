@@ -2,7 +2,8 @@
 
 #include "common/error.hpp"
 #include "folder.hpp"
-#include "run/engine_factory.hpp"
+#include "engines/soft/soft_method.hpp"
+#include "make_engine.hpp"
 #include "run/run.hpp"
 
 using namespace chute;
@@ -68,7 +69,7 @@ TEST_CASE("the same scene and seed give the same bytes, with any number of threa
 TEST_CASE("many grains are shared by threads, and the bytes stay the same") {
   const auto many = scene::read_scene(
       CHUTE_SOURCE_DIR "/scenes/demo.toml",
-      {"grains.count=" + std::to_string(2 * run::grains_per_thread + 500), "bed.count=300",
+      {"grains.count=" + std::to_string(2 * soft::SoftMethod::grains_per_thread + 500), "bed.count=300",
        "run.duration=0.8", "contact.normal.stiffness=1e4", "contact.tangential.viscosity=50",
        "output.contacts=false", "output.frames={every=0.4}", "output.profiles={every=0.1}",
        "output.impacts={from=0.4}"});
@@ -130,5 +131,11 @@ TEST_CASE("a finished run that is resumed stays as it is") {
   CHECK(results(folder / "a") == expected);
   CHECK(run::is_finished_run_of(folder / "a", flow()));
   CHECK_FALSE(run::is_finished_run_of(folder / "a", flow({"seed=8"})));
+  // nor what another program made
+  auto record = content(folder / "a" / "run.json");
+  const auto build = record.find("\"build\": \"") + 10;
+  record[build] = record[build] == '0' ? '1' : '0';
+  write(folder / "a" / "run.json", record);
+  CHECK_FALSE(run::is_finished_run_of(folder / "a", flow()));
   CHECK_FALSE(run::is_finished_run_of(folder / "b", flow()));
 }

@@ -56,16 +56,26 @@ std::vector<double> column(const std::filesystem::path& file, const std::string&
 
 }  // namespace
 
+// With e_n = 0.1 the ball's motion repeats from bead to bead, so that means can be compared; with 0.7 it bounces
+// irregularly, and rounding, which differs, grows: there only the first bounces can.
 TEST_CASE("a ball in space that runs over a single row, at y = 0, moves as one in the plane") {
   for (const char* method : {"soft", "event"}) {
-    const auto scene = [&](std::vector<std::string> settings) {
-      settings.insert(settings.end(), {"grains.start.spread=0", std::string("engine.method=") + method, "incline.sin=0.08"});
+    const auto scene = [&](const char* e_n, std::vector<std::string> settings) {
+      settings.insert(settings.end(), {"grains.start.spread=0", std::string("engine.method=") + method,
+                                       std::string("contact.normal.restitution=") + e_n, "incline.sin=0.08"});
       return scene::read_scene(scenes + "ball-2d.toml", settings);
     };
-    const double plane = mean_velocity(scene({}), 1, 5);
-    const double space = mean_velocity(scene({"dimensions=3", "domain.size=[0.5, 0.2]"}), 1, 5);
+    const std::vector<std::string> in_space{"dimensions=3", "domain.size=[0.5, 0.2]"};
+    const double plane = mean_velocity(scene("0.1", {}), 1, 5), space = mean_velocity(scene("0.1", in_space), 1, 5);
     CAPTURE(method, plane, space);
     CHECK(space == Approx(plane).epsilon(1e-4));
+    const auto flat = make_engine(scene("0.7", {})), deep = make_engine(scene("0.7", in_space));
+    for (const auto* made : {&flat, &deep}) made->engine->advance_to(std::llround(0.2 / made->engine->time_step()));
+    const auto a = flat.engine->grains(), b = deep.engine->grains();
+    CHECK(b.position[0][0] == Approx(a.position[0][0]).epsilon(1e-9));
+    CHECK(b.velocity[2][0] == Approx(a.velocity[1][0]).epsilon(1e-7));
+    CHECK(b.spin[1][0] == Approx(-a.spin[0][0]).epsilon(1e-7));
+    CHECK(b.position[1][0] == 0);
   }
 }
 
@@ -97,10 +107,10 @@ TEST_CASE("a ball on a smooth plane bounces to e_n^2 of its height, with soft an
           scenes + "settle-3d.toml",
           {"dimensions=" + std::to_string(dimensions), dimensions == 2 ? "domain.periodic=[\"x\"]" : "domain.periodic=[\"x\", \"y\"]",
            "grains.count=1", "grains.diameter.std=0", "grains.start={lattice=\"none\", height=3.5}",
-           "contact.normal.stiffness=1e7", std::string("engine.method=") + method, "output.impacts={from=0}", "run.duration=6"});
+           "contact.normal.stiffness=1e7", std::string("engine.method=") + method, "output.impacts={from=0}", "run.duration=7"});
       const auto made = make_engine(scene);
       made.engine->collect_impacts(true);
-      made.engine->advance_to(std::llround(6 / made.engine->time_step()));
+      made.engine->advance_to(std::llround(7 / made.engine->time_step()));
       const auto impacts = made.engine->take_impacts();
       CAPTURE(method, dimensions, impacts.size());
       REQUIRE(impacts.size() >= 3);

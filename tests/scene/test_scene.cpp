@@ -100,7 +100,6 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
         with("restitution = 0.6", "damping = 0.1\nmass_scaling = \"both\""),
         with("law = \"coulomb-viscous\"\nviscosity = 1000\nfriction = 0.5", "law = \"frictionless\""),
         with("kind = \"row\"", "kind = \"disordered-row\"\ngap_max = 0.1"),
-        with("kind = \"row\"\ndiameter = 1.0\ncount = 30", "kind = \"flat\"\nlength = 30"),
         with("integrator = \"gear5\"", "integrator = \"verlet\"\ntime_step = 1e-5"),
         with("title = \"Dense", "title = \"a \\\"quoted\\\" \\\\ title\\n with lines; Dense"),
         with("frames = { every = 0.5 }",
@@ -141,4 +140,32 @@ TEST_CASE("settings of the command line win over the file") {
 TEST_CASE("a height of profile bins that is not given is one bed diameter") {
   auto s = parse(with("diameter = 1.0\n", "diameter = 0.25\n", with(", bin = 1.0", "")));
   CHECK(s.wants<measure::ProfilesOutput>()->spec->bin == 0.25);
+}
+
+TEST_CASE("the time step resolves the contact of the smallest grains, not of the mean ones") {
+  const auto s = parse(example, {"grains.diameter.std=0.2", "grains.start.spacing=1.7"});
+  const auto setting = setting_of(s);
+  const auto world = make_world<2>(s);
+  double smallest = 1;
+  for (std::size_t i = 0; i < world.grains.moving; ++i) smallest = std::min(smallest, world.grains.mass[i]);
+  const double t_n = s.contact.impact(setting.reference(), laws::Pair(smallest / 2)).contact_time;
+  CHECK(s.engine->step(setting) <= t_n / 50);
+  CHECK(s.engine->step(setting) > 0.98 * t_n / 50);
+  const auto same = parse(example, {"grains.diameter.std=0"});
+  const double mean = same.contact.impact(laws::Pair(0.5)).contact_time;
+  CHECK(same.engine->step(setting_of(same)) == Approx(mean / 50).epsilon(1e-3));
+}
+
+TEST_CASE("the resolved scene reads back the same, in space and on every bed and start") {
+  for (const std::vector<std::string>& settings : std::vector<std::vector<std::string>>{
+           {"bed={kind=\"flat\", length=30}"},
+           {"bed={kind=\"none\"}", "domain.size=[30]"},
+           {"dimensions=3", "domain.size=[30, 6]"},
+           {"dimensions=3", "bed={kind=\"lattice\", count=30, count_across=6, arrangement=\"triangular\"}"},
+           {"grains.start={kind=\"square\", spacing=1.3}"},
+           {"grains.count=1", "grains.start={kind=\"none\"}"}}) {
+    const auto text = to_toml(parse(example, settings));
+    INFO(text);
+    CHECK(to_toml(parse(text)) == text);
+  }
 }

@@ -28,7 +28,7 @@ std::string bytes_after(const Grains<D>& grains, const soft::SoftSetup<D>& s, st
   soft::SoftEngine<D> engine(grains, s);
   engine.collect_impacts(true);
   engine.advance_to(steps);
-  CHECK(engine.take_impacts().size() > 40);
+  CHECK(engine.take_impacts().size() > 30);
   return state(engine);
 }
 

@@ -13,7 +13,7 @@ namespace {
 SweepSpec read(const std::string& text) {
   const Folder folder;
   test::write(folder / "s.toml", text);
-  return read_sweep({folder / "s.toml", {}});
+  return read_sweep(Base(folder / "s.toml"));
 }
 
 std::string refusal(const std::string& text) {

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
 #include "folder.hpp"
@@ -155,4 +156,42 @@ TEST_CASE("the lower boundary of a stiff inelastic ball is that of the corrected
   const double boundary = std::stod(row);
   CHECK(boundary == Approx(0.02287).epsilon(0.03));
   CHECK(boundary > 0.02287 - 0.0001);
+}
+
+TEST_CASE("a sweep goes on with the scene as it was read, whatever happens to the file") {
+  const Folder folder;
+  test::write(folder / "scene.toml", content(ball));
+  const Base read(folder / "scene.toml", base().set);
+  const auto before = scene::to_toml(read.scene({"sweep="}));
+  test::write(folder / "scene.toml", "title = \"something else\"\n");
+  CHECK(scene::to_toml(read.scene({"sweep="})) == before);
+}
+
+TEST_CASE("boundaries that cannot be written are an error, and points that are missing are another shard's") {
+  const Folder folder;
+  const Base stiff(CHUTE_SOURCE_DIR "/scenes/boundaries-ball.toml",
+                   {"grains.count=2", "run.duration=1", "sweep.axis=[{key=\"grains.size_ratio\",values=[2.25]}]",
+                    "sweep.boundary={axis={key=\"incline.sin\",from=0,to=0.1,count=2},tolerance=0.1,velocities=[0.2]}"});
+  CHECK(go(stiff, folder / "a"));
+  fs::remove(folder / "a/boundaries.csv");
+  fs::create_directories(folder / "a/boundaries.csv/in the way");
+  CHECK_THROWS_WITH(go(stiff, folder / "a", 1, 1, 1, true), Catch::Contains("boundaries.csv: cannot write"));
+  const PointStore known = PointStore(folder / "empty").only_known();
+  CHECK_THROWS_AS(known.get(stiff.scene({"sweep=", "incline.sin=0.1"}), [](double) { return true; }),
+                  PointStore::PointIsMissing);
+}
+
+TEST_CASE("a run and a sweep give the same verdicts on independent starts") {
+  const Folder folder;
+  const auto scene = scene::read_scene(ball, {"sweep=", "grains.count=4", "run.duration=8", "incline.sin=0.06"});
+  const auto followed = follow(scene, [](double) { return true; });
+  run::RunOptions options;
+  options.directory = folder / "run";
+  run::run_scene(scene, options);
+  const auto json = nlohmann::json::parse(content(folder / "run/run.json"));
+  REQUIRE(json.at("starts").size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(json.at("starts")[k].at("verdict") == measure::name(followed.starts[k].verdict));
+    CHECK(json.at("starts")[k].at("v_x") == followed.starts[k].v_x.mean);
+  }
 }

@@ -8,9 +8,6 @@
 namespace chute::soft {
 namespace {
 
-/// Moving grains for which a further thread pays.
-constexpr std::int64_t grains_per_thread = 2000;
-
 template <int D>
 std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const engines::Setting& setting, int threads) {
   SoftSetup<D> setup{world.surroundings()};
@@ -21,7 +18,7 @@ std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const eng
   setup.deepest_overlap = method.deepest_overlap;
   setup.contact_time = setting.contact.impact(setting.reference()).contact_time;
   const auto moving = static_cast<std::int64_t>(world.grains.moving);
-  setup.threads = static_cast<int>(std::clamp<std::int64_t>(moving / grains_per_thread, 1, threads));
+  setup.threads = static_cast<int>(std::clamp<std::int64_t>(moving / SoftMethod::grains_per_thread, 1, threads));
   return std::make_unique<SoftEngine<D>>(std::move(world.grains), setup);
 }
 

@@ -10,6 +10,8 @@ namespace chute::soft {
 class SoftMethod final : public Described<engines::Method, SoftMethod> {
  public:
   static constexpr std::string_view word = "soft", text = "time-step driven molecular dynamics of soft grains (2.1.1)";
+  /// A further thread pays for so many moving grains.
+  static constexpr std::int64_t grains_per_thread = 2000;
   Scheme integrator = Scheme::gear5;
   static constexpr std::array<std::string_view, 2> integrators{"gear5", "verlet"};
   double steps_per_contact = 50;
