@@ -11,9 +11,8 @@ namespace {
 
 std::string how(const BallOnLine& ball) {
   return fmt::format(
-      "event-driven, Walton's collisions: e_n = 0.7, mu = 0.13, beta = 0.34; r = {} mm, eps = 0, solid "
-      "sphere, "
-      "start with v_x = {} m/s, v_z = {} m/s, no spin; contact time {} s",
+      "event-driven, Walton's collisions: e_n = 0.7, mu = 0.13, beta = 0.34; r = {} mm, eps "
+      "= 0, solid sphere, start with v_x = {} m/s, v_z = {} m/s, no spin; contact time {} s",
       ball.radius * 1e3, ball.velocity, ball.velocity_up, ball.contact_time);
 }
 

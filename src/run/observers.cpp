@@ -69,11 +69,9 @@ void Observers::write(const GrainsView& grains) const {
       .add("normal_loss", energy(&EnergyAccount::normal_loss))
       .add("shear_loss", energy(&EnergyAccount::shear_loss))
       .add("residual", [](const Row& row) { return row.energy.residual(); });
-  write_atomically(
-      run_.directory.file("series.csv"),
-      columns.csv(run_.comments("means over the moving grains, and where the energy is and went (see "
-                                "README)"),
-                  series_));
+  const auto comments =
+      run_.comments("means over the moving grains, and where the energy is and went (see README)");
+  write_atomically(run_.directory.file("series.csv"), columns.csv(comments, series_));
   const auto what_became = flow(grains);
   for (const auto& observer : list_) observer->write(what_became);
 }
