@@ -16,6 +16,11 @@ for needed in fonts-stix libvtk9.1 libosmesa6 libcairo2 libharfbuzz0b; do
   [[ $depends == *$needed* ]] || { echo "$package does not depend on $needed: $depends"; exit 1; }
 done
 [[ $(dpkg-deb -f chute.deb Recommends) == ffmpeg ]]
+# licences ask that these notices go with the program
+for library in libcli11-dev nlohmann-json3-dev libcereal-dev; do
+  dpkg-deb --fsys-tarfile chute.deb | tar -xO ./usr/share/doc/chute/copyright | grep -q "$library" ||
+    { echo "$package has no notices of $library"; exit 1; }
+done
 
 # mmdebstrap makes the root, runs the hooks in it, and removes it; without root it uses namespaces.
 mkdir -p use && cp "$here/tiny.toml" "$here/use.sh" use
