@@ -46,8 +46,8 @@ std::string Comparison::summary() const {
     return fmt::format("different sizes: expected {} x {}, got {} x {}", expected_width, expected_height,
                        actual_width, actual_height);
   return fmt::format(
-      "{}: {} of {} pixels differ, {} beyond the tolerance, worst {}/255 at ({}, {}), RMS {:.4f}, SSIM "
-      "{:.6f}",
+      "{}: {} of {} pixels differ, {} beyond the tolerance, "
+      "worst {}/255 at ({}, {}), RMS {:.4f}, SSIM {:.6f}",
       passes ? "same" : "different", differing, pixels, over, worst, worst_x, worst_y, rms, ssim);
 }
 

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "common/error.hpp"
+#include "common/share_folder.hpp"
 
 namespace chute::plot {
 namespace {
@@ -91,7 +92,7 @@ Fonts& Fonts::mine() {
 }
 
 std::string Fonts::file(Face face) {
-  return std::string(CHUTE_FONT_FOLDER) + "/" + file_names[static_cast<std::size_t>(face)];
+  return (share_folder() / "fonts" / file_names[static_cast<std::size_t>(face)]).string();
 }
 
 Fonts::Fonts() : files_(std::make_unique<Files>()) {

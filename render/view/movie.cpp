@@ -16,57 +16,41 @@ namespace {
 using Words = std::vector<std::string>;
 
 Words input_words(int width, int height, double rate) {
+  // clang-format off
   return {"ffmpeg",
           "-nostdin",
           "-hide_banner",
-          "-loglevel",
-          "error",
+          "-loglevel", "error",
           "-y",
-          "-f",
-          "rawvideo",
-          "-pixel_format",
-          "rgba",
-          "-video_size",
-          fmt::format("{}x{}", width, height),
-          "-framerate",
-          fmt::format("{}", rate),
-          "-i",
-          "pipe:0"};
+          "-f", "rawvideo",
+          "-pixel_format", "rgba",
+          "-video_size", fmt::format("{}x{}", width, height),
+          "-framerate", fmt::format("{}", rate),
+          "-i", "pipe:0"};
+  // clang-format on
 }
 
 // H.264's colours are sampled at half the size: sides must be even. BT.709, said in the file, so that players
 // show the colours that were drawn. As many threads everywhere, since they change the bytes; no versions or
 // times in the file.
 Words h264_words() {
-  return {"-vf",
-          "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,scale=out_color_matrix=bt709:out_range=tv"
-          ":flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p",
-          "-c:v",
-          "libx264",
-          "-preset",
-          "medium",
-          "-crf",
-          "19",
-          "-tune",
-          "animation",
-          "-threads",
-          "4",
-          "-colorspace",
-          "bt709",
-          "-color_primaries",
-          "bt709",
-          "-color_trc",
-          "iec61966-2-1",
-          "-color_range",
-          "tv",
-          "-fflags",
-          "+bitexact",
-          "-flags:v",
-          "+bitexact",
-          "-movflags",
-          "+faststart",
-          "-f",
-          "mp4"};
+  // clang-format off
+  return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,scale=out_color_matrix=bt709:out_range=tv"
+                 ":flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p",
+          "-c:v", "libx264",
+          "-preset", "medium",
+          "-crf", "19",
+          "-tune", "animation",
+          "-threads", "4",
+          "-colorspace", "bt709",
+          "-color_primaries", "bt709",
+          "-color_trc", "iec61966-2-1",
+          "-color_range", "tv",
+          "-fflags", "+bitexact",
+          "-flags:v", "+bitexact",
+          "-movflags", "+faststart",
+          "-f", "mp4"};
+  // clang-format on
 }
 
 void over_ground(image::Image& picture, Rgb ground) {

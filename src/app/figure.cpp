@@ -9,6 +9,7 @@
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/share_folder.hpp"
 #include "common/toml_reader.hpp"
 #include "experiments/computed_figures.hpp"
 #include "figures/simulate.hpp"
@@ -24,10 +25,10 @@ namespace chute::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where the recipes that come with chute are: CHUTE_SCENES, or the source tree that it was built from.
+/// Where the recipes that come with chute are: CHUTE_SCENES, or what was installed with the program.
 fs::path scenes_folder() {
   const char* given = std::getenv("CHUTE_SCENES");
-  return given ? fs::path(given) : fs::path(CHUTE_SCENES_FOLDER);
+  return given ? fs::path(given) : share_folder() / "scenes";
 }
 
 /// A recipe file: [data] says where the numbers come from, [plot] how they look.

@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "app/manual.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
   app::add_figure(app);
   app::add_compare(app);
   app::add_theory(app);
+  app::add_manual(app);
 
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, as a full disk is
 

@@ -97,12 +97,11 @@ void show(const Arguments& a) {
     fmt::print("{:<22} {:<12} {:<12} {:<5} {}\n", q.name, number(q.printed), number(q.corrected), q.unit,
                q.equations);
   fmt::print(
-      "# corrected: (4.38) to (4.44) keep the energy while the spin adjusts in the impact; what is kept is "
-      "the "
-      "angular\n# momentum about the contact. (4.47) has the arc; the way along the line is 2r(1+eps). Both "
-      "enter the mean\n# velocity, the first alone e_t, theta_AB and the lift-off; (4.55), with rg(1+eps) "
-      "for "
-      "rg in both columns, is\n# expanded again from both.\n");
+      "# corrected: (4.38) to (4.44) keep the energy while the spin adjusts in the impact; what is kept is the "
+      "angular\n"
+      "# momentum about the contact. (4.47) has the arc; the way along the line is 2r(1+eps). Both enter the mean\n"
+      "# velocity, the first alone e_t, theta_AB and the lift-off; (4.55), with rg(1+eps) for rg in both columns, is\n"
+      "# expanded again from both.\n");
   if (!std::isfinite(velocity[1]))
     fmt::print("# mean_velocity none: the ball stops; it keeps rolling above theta_AB only\n");
   else if (theta > lift_off[1])

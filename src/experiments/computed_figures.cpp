@@ -31,8 +31,8 @@ FigureTable compute_fig_1_06(const FigureContext& context) {
   const laws::Walton walton{0.21, 0.39};
   FigureTable table;
   table.comments = {"x: psi_i = v_s/|v_n| before the collision", "y: psi_f = v_s/|v_n before| after it",
-                    "Walton's collision operator (2.22) to (2.31) on two equal spheres; e_n = 0.89, mu = "
-                    "0.21, beta = 0.39"};
+                    "Walton's collision operator (2.22) to (2.31) on two "
+                    "equal spheres; e_n = 0.89, mu = 0.21, beta = 0.39"};
   table.rows = evaluate({{"", "walton", evenly(0, 5, context.quick ? 51 : 501),
                           [&](double psi) { return walton_psi(walton, 0.89, psi); }}},
                         context.jobs);
@@ -89,10 +89,9 @@ PushedCylinder cylinder(char law) {
 }
 
 const std::string set_up_note =
-    "cylinder pushed along a plane by a massless block (3.2): m = g = r = 1, I = 1/2, mu_b = 0.5, mu_p = "
-    "0.25, (3.1) with "
-    "k_n = 2e7, e_n = 0.2 on the plane; from rest, F_p = 0.8 until t = 0.02, then 0.2 until t = 0.06; "
-    "Runge-Kutta";
+    "cylinder pushed along a plane by a massless block (3.2): m = g = r = 1, I = "
+    "1/2, mu_b = 0.5, mu_p = 0.25, (3.1) with k_n = 2e7, e_n = 0.2 on the plane; "
+    "from rest, F_p = 0.8 until t = 0.02, then 0.2 until t = 0.06; Runge-Kutta";
 const std::string laws_note = "a: (3.12) with gamma_s = 1000; b: (3.13) with k_s = k_n; c: as b with (3.25)";
 
 }  // namespace

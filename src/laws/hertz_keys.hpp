@@ -25,8 +25,8 @@ struct HertzKeys {
     a.check(young.has_value() == poisson.has_value(), young ? "young" : "poisson",
             "a material has both young and poisson");
     a.check(at_velocity.has_value(), "at_velocity",
-            "is missing: with this law t_n and e_n depend on the impact velocity. Give the fastest that is "
-            "expected");
+            "is missing: with this law t_n and e_n depend on the "
+            "impact velocity. Give the fastest that is expected");
   }
 
   /// The spring as given; with a given contact time, that of the stiffness `k` instead.

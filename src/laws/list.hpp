@@ -52,6 +52,12 @@ struct KeysOf<Law> {
   using Type = typename Law::Keys;
 };
 
+/// Does the law ask for Hertz's spring? Nothing but the name counts.
+template <class Law>
+concept HasHertzSpring = requires {
+  Law::hertz_spring;
+};
+
 template <class Laws>
 struct ListOf;
 template <class... Law>
@@ -59,11 +65,8 @@ struct ListOf<std::variant<Law...>> {
   using Keys = std::variant<typename KeysOf<Law>::Type...>;
   static constexpr std::array<std::string_view, sizeof...(Law)> names{Law::name...};
   /// Hertz's spring, k_n ξ^{3/2}, among the normal laws; those whose k_s/k_n asks for it among the others.
-  static constexpr std::array<bool, sizeof...(Law)> hertz_springs{requires {Law::hertz_spring;
-}...
-};  // namespace chute::laws
-}
-;
+  static constexpr std::array<bool, sizeof...(Law)> hertz_springs{HasHertzSpring<Law>...};
+};
 using NormalKeys = ListOf<Normal>::Keys;
 using ShearKeys = ListOf<Shear>::Keys;
 

@@ -47,22 +47,18 @@ struct Flow {
 /// made over the time. In this order:
 ///
 /// - `stopped`: during the last 10 √(length/g) the kinetic energy per mass stays under 10⁻³ g·length and the
-/// mean
-///   place within half a length. Counts from when that became so.
+///   mean place within half a length. Counts from when that became so.
 /// - `steady`: after the transient that MSER removes (what is left has nearly the least squared standard
-/// error of the
-///   mean velocity), or after three fifths of the run if that is earlier, at least 20 lengths are made; the
-///   linear trend over twelve stretches of that time changes the velocity by less than a tenth, or by less
-///   than three of its standard errors, which must not exceed 0.15 of the velocity; and the last eighth of
-///   the run lies within 15 % of the mean, or within four standard deviations of the stretches.
+///   error of the mean velocity), or after three fifths of the run if that is earlier, at least 20 lengths
+///   are made; the linear trend over twelve stretches of that time changes the velocity by less than a tenth,
+///   or by less than three of its standard errors, which must not exceed 0.15 of the velocity; and the last
+///   eighth of the run lies within 15 % of the mean, or within four standard deviations of the stretches.
 /// - `runaway`: three eighths of the run in a row were a plateau (means of the eighths within 15 %), the last
-/// eighth is
-///   at least 1.3 times as fast and faster than all blocks of the plateau, and not slower than the eighth
-///   before.
+///   eighth is at least 1.3 times as fast and faster than all blocks of the plateau, and not slower than the
+///   eighth before.
 /// - `accelerating`: over the last three quarters of the run the velocity grows by a fifth or more, and the
-/// growth from
-///   the second of these quarters to the third is at least 0.8 of that from the first to the second. An
-///   approach to some velocity within a time shorter than the run slows down more than that.
+///   growth from the second of these quarters to the third is at least 0.8 of that from the first to the
+///   second. An approach to some velocity within a time shorter than the run slows down more than that.
 /// - `unsettled`: everything else, and less than 64 rows.
 ///
 /// Errors are standard errors over twelve stretches, enlarged by √((1+r)/(1−r)) where neighbouring stretches

@@ -32,9 +32,8 @@ Tally tally(std::span<const measure::Flow> starts);
 /// Phases of thesis 4.1, decided like this from several starts at each of several launch velocities:
 /// A: at least half of all starts have stopped.
 /// B: not A; at least half of those of the slowest launch are steady or unsettled; and the median velocity of
-/// every
-///    faster launch is that of the slowest, to within a relative difference `alike`. That the final velocity
-///    does not depend on the start is how thesis 4.2.2 tells B from C.
+///    every faster launch is that of the slowest, to within a relative difference `alike`. That the final
+///    velocity does not depend on the start is how thesis 4.2.2 tells B from C.
 /// C: everything else.
 enum class Phase { A, B, C };
 Phase phase_of(std::span<const Tally> launches, double alike);

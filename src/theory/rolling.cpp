@@ -23,7 +23,7 @@ double sin_squared(const Line& line) {
 }
 
 /// γ̇²(γ_max) in units of 2 (m/m_eff) g/(R+r) sin θ: what gravity gives on the way over a bead is what the
-/// impact takes,
+/// impact takes:
 ///   2 sin γ_max sin θ = (1 − e_t²) γ̇²(γ_max),   in general; with (4.44) it is (4.45).
 double speed_squared(const Line& line, Version version) {
   const double e_t = impact_ratio(line, version);

@@ -21,8 +21,7 @@ struct Line {
 
 /// The closed form as the thesis prints it, and as it should be:
 /// - printed: energy is kept while the spin adjusts in an impact, e_t from (4.44), and the way per bead is
-/// the arc
-///   2(R+r)γ_max of (4.47);
+///   the arc 2(R+r)γ_max of (4.47);
 /// - corrected: the sticking impulse dissipates, what is kept is the angular momentum about the contact,
 ///   e_t = (m cos 2γ_max + I/R²)/m_eff; and the way along the line is 2r(1+ε) = 2(R+r) sin γ_max.
 enum class Version { printed, corrected };

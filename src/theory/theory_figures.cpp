@@ -13,13 +13,11 @@ namespace chute::theory {
 namespace {
 
 const char* const line_comment =
-    "r = 5 mm, g = 9.81 m/s^2, solid sphere; e_n = 0 and endless friction: the ball rolls without bouncing. "
-    "Curves end "
-    "where it would lift off";
+    "r = 5 mm, g = 9.81 m/s^2, solid sphere; e_n = 0 and endless friction: "
+    "the ball rolls without bouncing. Curves end where it would lift off";
 const char* const versions_comment =
-    "theory: as printed (arc length, energy kept while the spin adjusts); theory corrected: way along the "
-    "line, angular "
-    "momentum about the contact kept";
+    "theory: as printed (arc length, energy kept while the spin adjusts); theory "
+    "corrected: way along the line, angular momentum about the contact kept";
 
 const char* name(Version version) { return version == Version::printed ? "theory" : "theory corrected"; }
 
@@ -99,8 +97,8 @@ FigureTable compute_fig_4_04(const FigureContext& context) {
   table.comments = {
       "x: sin theta",
       "y: mean velocity v_x per time, m/s",
-      "stochastic model (4.1.3): r = 0.5 mm, eps = 0, mu = 0.142, e_n = 0.9, beta = 0.45; y_err from block "
-      "averages",
+      "stochastic model (4.1.3): r = 0.5 mm, eps = 0, mu = "
+      "0.142, e_n = 0.9, beta = 0.45; y_err from block averages",
       fmt::format("made with {} impacts a point, seed 1; no point where the ball is trapped or runs away",
                   hops),
       "R=3mm ...: e_t by (4.8), as published; with (4.9): e_t of a ball that cannot turn",

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# tidy.sh ROOT BUILD [PATTERN]: clang-tidy, with the checks of .clang-tidy, has nothing to say of src/ and render/, or of
+# the files that match PATTERN. It takes some seconds a file.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/tool.sh"
+clang_tidy=$(tool clang-tidy)
+cd "$1"
+mapfile -t files < <(find src render -name '*.cpp' | grep -E "${3:-.}" | sort)
+((${#files[@]})) || { echo "no file matches ${3:-.}" && exit 1; }
+said=$(printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 "$clang_tidy" -p "$2" --quiet \
+  --extra-arg=-Wno-unknown-warning-option 2>/dev/null) || true
+# Headers come once for each file that includes them.
+problems=$(grep -E '^/.*(warning|error): ' <<<"$said" | sort -u) || true
+if [[ $problems ]]; then
+  printf '%s\n' "$problems"
+  echo "$(wc -l <<<"$problems") problems"
+  exit 1
+fi
+echo "${#files[@]} files"
