@@ -44,6 +44,9 @@ class KeyLister {
   void value(std::string_view key, const std::vector<std::string>& v, Text text = {}) {
     add(key, "texts", "", v.empty() ? "" : fmt::format("{}", v), text);
   }
+  void value(std::string_view key, const std::vector<std::vector<double>>&, Text text = {}) {
+    add(key, "places", "", "", text);
+  }
   template <class T>
   void value(std::string_view key, const T& v, const char* text) {
     if constexpr (std::same_as<T, double> || std::same_as<T, std::int64_t> || std::same_as<T, std::vector<double>>)

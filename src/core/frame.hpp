@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -14,6 +15,13 @@ Vec<D> gravity_on_incline(double g, double theta) {
   gravity[D - 1] = -g * std::cos(theta);
   return gravity;
 }
+
+/// An incline that is tilted at a steady rate from one angle to another, where it stays.
+struct Tilt {
+  double from = 0, to = 0, rate = 0;  ///< rate ≥ 0, per time
+  double gravity = 0;                 ///< g
+  double angle(double t) const { return from < to ? std::min(to, from + rate * t) : std::max(to, from - rate * t); }
+};
 
 /// The frame of reference of an incline, for whoever measures along and across it, whatever the dimension: x goes
 /// downhill, the last coordinate away from the bed, and in 3D y across.

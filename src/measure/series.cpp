@@ -94,6 +94,8 @@ void SeriesObserver::write(const Flow&) const {
       .add("gravity_work", energy(&EnergyAccount::gravity_work))
       .add("normal_loss", energy(&EnergyAccount::normal_loss))
       .add("shear_loss", energy(&EnergyAccount::shear_loss))
+      .add("wall_work", energy(&EnergyAccount::wall_work))
+      .add("projection_work", energy(&EnergyAccount::projection_work))
       .add("residual", [](const Row& row) { return row.energy.residual(); });
   for (std::size_t k = 0; k < told_.size(); ++k) columns.add(told_[k], [k](const Row& row) { return row.tells[k]; });
   run_.write("series.csv",

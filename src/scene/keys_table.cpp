@@ -43,6 +43,10 @@ class Table {
 std::string keys_table() {
   Table table;
   table.add_kinds("bed", "kind", beds::list());
+  KeyLister wall;
+  WallSpec example;
+  describe(wall, example);
+  table.add("`[[wall]]` planes, segments, polygons and cylinders that grains do not pass", wall.keys());
   table.add_kinds("grains.start", "kind", starts::list());
   table.add_kinds("engine", "method", engines::list());
   for (const auto& kind : measure::list()) {

@@ -16,12 +16,37 @@ namespace chute::scene {
 // Outside unnamed namespaces: the archives find these by the type that they describe.
 
 template <class Archive>
+static void describe_angle(Archive& a, const char* key, std::string& angle, const char* text) {
+  a.required(key, angle, text);
+  if constexpr (Archive::reading)
+    a.check(parse_angle(angle).has_value(), key, fmt::format("\"{}\" is not an angle, write \"18 deg\" or \"0.3 rad\"", angle));
+}
+
+template <class Archive>
+static void describe(Archive& a, Tilting& tilting) {
+  describe_angle(a, "from", tilting.from, "where the incline starts");
+  describe_angle(a, "to", tilting.to, "where it stays in the end");
+  describe_angle(a, "rate", tilting.rate, "how far it is tilted per time, > 0");
+  if constexpr (Archive::reading) {
+    for (const auto& [key, angle] : {std::pair("from", &tilting.from), std::pair("to", &tilting.to)})
+      a.check(std::abs(*parse_angle(*angle)) <= std::numbers::pi / 2, key,
+              fmt::format("\"{}\" is not allowed, must be between -90 deg and 90 deg", *angle));
+    a.check(*parse_angle(tilting.rate) > 0, "rate", fmt::format("\"{}\" is not allowed, must be > 0", tilting.rate));
+  }
+}
+
+template <class Archive>
 static void describe(Archive& a, Incline& incline) {
-  a.value("angle", incline.angle, "inclination, \"18 deg\" or \"0.3 rad\"");
+  bool table = incline.tilting.has_value();
+  if constexpr (Archive::reading) table = a.has_table("angle");
+  if (table)
+    a.section("angle", incline.tilting);
+  else
+    a.value("angle", incline.angle, "inclination, \"18 deg\" or \"0.3 rad\"; or { from, to, rate } of one that is tilted");
   a.value("sin", incline.sine, between(-1, 1), "its sine instead");
   a.value("gravity", incline.gravity, non_negative, "g; default 9.81 m/s² in SI, 1 in reduced units");
   if constexpr (Archive::reading) {
-    a.check(incline.angle.has_value() != incline.sine.has_value(), incline.angle ? "sin" : "angle",
+    a.check((incline.angle || incline.tilting) != incline.sine.has_value(), incline.sine ? "sin" : "angle",
             "give either angle = \"18 deg\" or sin = 0.31");
     if (incline.angle) {
       const auto theta = parse_angle(*incline.angle);
@@ -147,6 +172,7 @@ static void describe(Archive& a, Scene& scene) {
   if (Archive::reading || scene.domain.periodic || scene.domain.size) a.section("domain", scene.domain);
   BedTable bed{scene.bed};
   a.required_section("bed", bed);
+  a.sections("wall", scene.walls);
   a.required_section("grains", scene.grains);
   a.required_section("contact", scene.contact);
   EngineTable engine{scene.engine};
@@ -166,7 +192,11 @@ static void describe(Archive& a, Scene& scene) {
   }
 }
 
-double Incline::theta() const { return sine ? std::asin(*sine) : parse_angle(*angle).value(); }
+Tilt Tilting::tilt(double gravity) const {
+  return {parse_angle(from).value(), parse_angle(to).value(), parse_angle(rate).value(), gravity};
+}
+
+double Incline::theta() const { return tilting ? tilting->tilt(gravity).from : sine ? std::asin(*sine) : parse_angle(*angle).value(); }
 
 /// Refuses runs of more steps than can be counted.
 static void check_step_count(const Scene& scene, const engines::Setting& setting, const TomlReader& reader) {

@@ -11,6 +11,7 @@
 #include "engines/kind/method.hpp"
 #include "laws/contact_spec.hpp"
 #include "measure/observer.hpp"
+#include "scene/wall_spec.hpp"
 #include "starts/start.hpp"
 
 /// A scene: what a physicist writes down to define a run. Lengths, times and masses are in SI or in reduced
@@ -22,13 +23,20 @@ namespace chute::scene {
 enum class Units { reduced, si };
 inline constexpr std::array<std::string_view, 2> units_words{"reduced", "SI"};
 
+/// An angle that changes steadily, `angle = { from = "0 deg", to = "30 deg", rate = "0.1 deg" }`, rate per time.
+struct Tilting {
+  std::string from, to, rate;
+  Tilt tilt(double gravity) const;
+};
+
 /// Inclination θ: `angle = "18 deg"` (or `"0.3 rad"`), or `sin = 0.094`. Kept as it was written, so that the
 /// resolved scene gives the same bytes.
 struct Incline {
   std::optional<std::string> angle;
+  std::optional<Tilting> tilting;  ///< the same key as a table
   std::optional<double> sine;
   double gravity = 0;  ///< g; default 9.81 m/s² in SI, 1 in reduced units
-  double theta() const;
+  double theta() const;  ///< at the start
 };
 
 /// [domain]: which directions repeat, and after which length. The bed says the rest.
@@ -59,6 +67,7 @@ struct Scene {
   Incline incline;
   DomainSpec domain;
   Chosen<beds::Bed> bed;
+  std::vector<WallSpec> walls;  ///< [[wall]]
   GrainsSpec grains;
   laws::ContactSpec contact;
   Chosen<engines::Method> engine;

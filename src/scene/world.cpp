@@ -74,7 +74,11 @@ std::vector<double> radii_of(const Scene& scene) {
 
 starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const Periods& periods) {
   const bool flat = scene.dimensions == 2;
-  starts::Opening opening{scene.dimensions, seed_of(scene), periods.length[0], flat ? 0 : periods.length[1], ground,
+  const auto room = [&](std::size_t k) {
+    const auto& size = scene.domain.size;
+    return periods.length[k] > 0 ? periods.length[k] : size && k < size->size() ? (*size)[k] : 0;
+  };
+  starts::Opening opening{scene.dimensions, seed_of(scene), room(0), flat ? 0 : room(1), ground,
                           scene.bed->diameter, given_diameter(scene).value_or(scene.bed->diameter),
                           scene.grains.independent, {}};
   if (!scene.grains.start->brings_grains()) opening.radii = radii_of(scene);
@@ -84,6 +88,7 @@ starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const
 /// Sizes of the grains, whoever says them.
 struct Sizes {
   double mean_diameter = 1, mean_mass = 1, smallest = 0, largest = 0;  // radii
+  double fastest = 0;
   std::int64_t count = 1;
 };
 
@@ -94,6 +99,8 @@ Sizes sizes_of(const Scene& scene) {
     const auto ground = scene.bed->lay(site_of(scene));
     for (const auto& launch : scene.grains.start->begin(opening_of(scene, ground, periods_of(scene, ground)))) {
       radii.push_back(launch.radius);
+      const auto& v = launch.velocity;
+      sizes.fastest = std::max(sizes.fastest, std::hypot(v[0], v[1], v[2]));
       masses.push_back(launch.mass.value_or(sphere_mass(scene.grains.density, launch.radius)));
     }
     sizes.mean_diameter = 2 * estimate_of(radii).mean;
@@ -133,7 +140,13 @@ engines::Setting setting_of(const Scene& scene) {
   s.grains = sizes.count;
   s.independent = scene.grains.independent;
   s.rotation = scene.grains.rotation;
-  if (const auto* start = scene.grains.start.as<starts::MadeStart>()) s.launch_velocity = start->velocity;
+  for (const auto& wall : scene.walls) s.wall_surfaces.push_back(wall.surface);
+  s.fastest = sizes.fastest;
+  if (const auto* start = scene.grains.start.as<starts::MadeStart>()) {
+    constexpr double farthest = 3.5;  // standard deviations; one component in two thousand is faster
+    s.launch_velocity = start->velocity;
+    s.fastest = std::hypot(start->velocity, start->velocity_up) + farthest * start->spread;
+  }
 
   const bool many = s.grains > 1 && !s.independent, beads = !ground.beads.empty();
   const double r = s.bead_diameter / 2;
@@ -155,6 +168,45 @@ engines::Setting setting_of(const Scene& scene) {
   }
   return s;
 }
+
+namespace {
+
+/// What of [[wall]] cannot be.
+std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers, const Periods& periods, double widest) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    const WallSpec& wall = scene.walls[w];
+    const auto path = fmt::format("wall[{}]", w);
+    if (auto wrong = misfit(wall, path, scene.dimensions)) return wrong;
+    const auto lacks = [&](bool has, const char* key, bool asked, const char* what) -> std::optional<Refusal> {
+      if (has || !asked) return {};
+      return Refusal{path + key, fmt::format("engine.method = \"{}\" {}", scene.engine.word(), what)};
+    };
+    const auto& own = wall.surface;
+    for (const auto& wrong :
+         {lacks(offers.walls, "", true, "knows no walls"),
+          lacks(offers.wall_shapes, "", !wall.is_plane() || wall.moves(), "knows only planes that stand still"),
+          lacks(offers.wall_surfaces, ".friction", own.friction.has_value(), "gives walls no friction of their own"),
+          lacks(offers.wall_surfaces, ".restitution", own.restitution.has_value(), "gives walls no restitution of their own"),
+          lacks(offers.wall_sticking, ".tangential_restitution", own.tangential_restitution.has_value(),
+                "knows no tangential restitution"),
+          lacks(offers.static_friction, ".static_friction", own.static_friction.has_value(),
+                "knows one friction only, at rest and sliding")})
+      if (wrong) return wrong;
+    constexpr double clear = 1.5;  // of a grain: with less it would touch two images of the wall at once
+    const double size = [&] {
+      const auto extent = [](const auto& made) { return made.bounded() ? 2 * made.bounded()->extent() : 0; };
+      return scene.dimensions == 2 ? extent(make_wall<2>(wall)) : extent(make_wall<3>(wall));
+    }();
+    for (const double period : periods.length)
+      if (period > 0 && size > 0 && size + clear * widest > period)
+        return Refusal{path, fmt::format("is {:.4g} long: with a grain it does not fit into the period of {:.4g}; a plane "
+                                         "goes on for ever",
+                                         size, period)};
+  }
+  return {};
+}
+
+}  // namespace
 
 std::optional<Refusal> refusal_of(const Scene& scene) {
   const auto site = site_of(scene);
@@ -186,7 +238,10 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
     return r;
   if (auto r = lacks(offers.independent, "lets all grains feel each other", "grains.independent", scene.grains.independent))
     return r;
+  if (auto r = lacks(offers.tilting, "keeps the incline where it is, give one angle", "incline.angle", scene.incline.tilting.has_value()))
+    return r;
   if (auto r = lacks(offers.walls, "knows no walls", "bed.kind", ground.smooth)) return r;
+  if (auto r = refusal_of_walls(scene, offers, periods, setting.mean_diameter)) return r;
   for (const auto& output : scene.output) {
     if (!output->wanted()) continue;
     const auto needs = output->needs();
@@ -232,12 +287,14 @@ World<D> make_world(const Scene& scene) {
   for (int k = 0; k < D; ++k)
     if (const double length = periods.length[static_cast<std::size_t>(k)]; length > 0) world.domain.length[k] = length;
   world.gravity = gravity_on_incline<D>(scene.incline.gravity, scene.incline.theta());
+  if (scene.incline.tilting) world.tilt = scene.incline.tilting->tilt(scene.incline.gravity);
   const double d = given_diameter(scene).value_or(mean);
   if (ground.smooth) {
     Wall<D> wall;
     wall.normal[D - 1] = 1;
     world.walls.push_back(wall);
   }
+  for (const auto& wall : scene.walls) world.walls.push_back(make_wall<D>(wall));
   if (ground.smooth || !ground.beads.empty()) world.floor = -(scene.bed->diameter + d);
   world.frame.dimensions = D;
   world.frame.bead_spacing = ground.spacing > 0 ? ground.spacing : d;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "engines/event/first_contact.hpp"
+#include "engines/hard/first_contact.hpp"
 #include "few_grains.hpp"
 
 using namespace chute;

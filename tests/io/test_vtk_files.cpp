@@ -203,8 +203,9 @@ TEST_CASE("contacts are lines along their branches, with all that they tell") {
 }
 
 TEST_CASE("a wall is drawn where it crosses the room") {
-  io::RunFacts room{"SI", 3, {}, {}, {{{0, 0, 1}, {0, 0, 1}}}, {0, 4, 0, 2, -1, 3}};
-  const auto flat = read_back(io::walls_vtp(room));
+  const io::Room room{0, 4, 0, 2, -1, 3};
+  const auto of = [](std::vector<io::WallFace> faces, int dimensions) { return io::RunFacts{"SI", dimensions, {}, {}, std::move(faces)}; };
+  const auto flat = read_back(io::walls_vtp(of(io::faces_of(Wall<3>{{{0, 0, 1}}, {{0, 0, 1}}}, 0, room), 3)));
   REQUIRE(flat->GetNumberOfPolys() == 1);
   REQUIRE(flat->GetNumberOfPoints() == 4);
   CHECK(flat->GetBounds()[0] == Approx(0).margin(1e-9));
@@ -212,13 +213,23 @@ TEST_CASE("a wall is drawn where it crosses the room") {
   CHECK(flat->GetBounds()[3] == Approx(2));
   CHECK(flat->GetBounds()[4] == Approx(1));
   CHECK(flat->GetBounds()[5] == Approx(1));
-  room.walls = {{{0, 0, 9}, {0, 0, 1}}};  // not in the room
-  CHECK(read_back(io::walls_vtp(room))->GetNumberOfPolys() == 0);
-  const io::RunFacts plane{"SI", 2, {}, {}, {{{0, 0, 0}, {-0.6, 0.8, 0}}}, {0, 2, -5, 5, 0, 0}};
-  const auto line = read_back(io::walls_vtp(plane));
+  CHECK(io::faces_of(Wall<3>{{{0, 0, 9}}, {{0, 0, 1}}}, 0, room).empty());  // not in the room
+  const auto line = read_back(io::walls_vtp(of(io::faces_of(Wall<2>{{}, {{-0.6, 0.8}}}, 0, {0, 2, -5, 5, 0, 0}), 2)));
   REQUIRE(line->GetNumberOfLines() == 1);
   CHECK(line->GetBounds()[1] == Approx(2));
   CHECK(line->GetBounds()[3] == Approx(1.5));
+
+  Wall<2> segment{{{1, 1}}, {{0, 1}}};
+  segment.outline = Segment{{{2, 0}}};
+  const auto ending = read_back(io::walls_vtp(of(io::faces_of(segment, 0, {}), 2)));  // whatever the room
+  CHECK(ending->GetBounds()[0] == Approx(-1));
+  CHECK(ending->GetBounds()[1] == Approx(3));
+  Wall<3> pipe{{{0, 0, 5}}};
+  pipe.outline = Cylinder<3>{{{0, 1, 0}}, 2, 0};
+  const auto staves = read_back(io::walls_vtp(of(io::faces_of(pipe, 0, {-1, 1, -3, 3, 4, 6}), 3)));
+  CHECK(staves->GetNumberOfPolys() > 30);
+  CHECK(staves->GetBounds()[4] == Approx(3).margin(1e-9));
+  CHECK(staves->GetBounds()[5] == Approx(7).margin(1e-9));
 }
 
 TEST_CASE("files are binary, compressed, and the same bytes each time") {

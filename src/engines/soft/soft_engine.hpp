@@ -25,6 +25,7 @@ struct ManyGrains {
 template <int D>
 struct SoftSetup : Surroundings<D> {
   laws::ContactLaws laws{};
+  std::vector<std::optional<laws::ContactLaws>> wall_laws{};  ///< of the walls that have their own
   Scheme scheme = Scheme::gear5;
   double time_step = 0;
   typename search::NeighbourList<D>::Skins skins{};
@@ -77,7 +78,7 @@ class SoftEngine final : public Engine {
   ContactStages<D> stages_;
   Integrator<D> integrator_;
   WallContacts<D> walls_;
-  Contacts<D> contacts_, wall_contacts_;
+  Contacts<D> contacts_;
   GrainSums<D> sums_;
   std::array<Array, D> start_place_;  // of the moving grains, for gravity's work
   EnergyAccount account_;             // start, and the losses that are no grain's; the rest when asked for
@@ -103,6 +104,7 @@ class SoftEngine final : public Engine {
   void reorder(std::span<const std::int32_t> from);
   void back_to_ids();
   std::vector<std::int32_t> places() const;
+  void tilt();
   void check_overlaps() const;
   void find_impacts();
   void remember_touching();

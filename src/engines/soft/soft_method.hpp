@@ -27,6 +27,7 @@ class SoftMethod final : public Described<engines::Method, SoftMethod> {
             "of the smaller radius; beyond it the run has left physics and stops");
   }
   Offers offers() const override;
+  std::optional<Refusal> refusal(const engines::Setting& setting) const override;
   double step(const engines::Setting& setting) const override;
   std::vector<Fact> facts(const engines::Setting& setting) const override;
   double seconds_per_step(const engines::Setting& setting) const override;

@@ -6,7 +6,7 @@
 
 #include "core/impact.hpp"
 
-namespace chute::event {
+namespace chute::hard {
 
 /// The contact of two grains as hard spheres know it: a train of collisions that follow each other closely.
 struct Meeting {
@@ -66,4 +66,4 @@ class Meetings {
   double contact_time_ = 0;
 };
 
-}  // namespace chute::event
+}  // namespace chute::hard

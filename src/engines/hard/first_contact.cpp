@@ -1,4 +1,4 @@
-#include "engines/event/first_contact.hpp"
+#include "engines/hard/first_contact.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace chute::event {
+namespace chute::hard {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -119,4 +119,4 @@ double first_contact_with_plane(double gap, double speed, double pull) {
 template double first_contact(const Approach<2>&);
 template double first_contact(const Approach<3>&);
 
-}  // namespace chute::event
+}  // namespace chute::hard

@@ -3,7 +3,7 @@
 
 #include "core/vec.hpp"
 
-namespace chute::event {
+namespace chute::hard {
 
 /// How two spheres move about each other: the way from the second's centre to the first's is r(t) = d + v t +
 /// ½ a t². Two grains in free flight have a = 0, (2.18); a grain in flight and a fixed one have a = g, (2.21)
@@ -40,4 +40,4 @@ double first_contact(const Approach<D>& approach);
 /// The same for a grain and a plane: its height above touching is gap + speed t + ½ pull t².
 double first_contact_with_plane(double gap, double speed, double pull);
 
-}  // namespace chute::event
+}  // namespace chute::hard

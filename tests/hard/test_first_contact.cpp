@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "core/random.hpp"
-#include "engines/event/first_contact.hpp"
+#include "engines/hard/first_contact.hpp"
 
 using namespace chute;
-using chute::event::Approach;
-using chute::event::first_contact;
+using chute::hard::Approach;
+using chute::hard::first_contact;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "core/domain.hpp"
 #include "core/grains.hpp"
 
-namespace chute::event {
+namespace chute::hard {
 
 /// A grain's free flight since its last collision, (2.19), (2.20). Nothing in it changes between collisions,
 /// so whatever is computed from it is the same bytes whenever it is computed.
@@ -44,4 +44,4 @@ struct Flight {
   }
 };
 
-}  // namespace chute::event
+}  // namespace chute::hard
