@@ -55,7 +55,9 @@ struct Wall {
   const Cylinder<D>* cylinder() const { return std::get_if<Cylinder<D>>(&outline); }
   const Bounded* bounded() const { return std::get_if<Bounded>(&outline); }
   bool oscillates() const { return motion.amplitude > 0 && motion.frequency > 0; }
-  bool moves() const { return oscillates() || norm(motion.velocity) > 0 || (cylinder() && cylinder()->spin != 0); }
+  bool moves() const {
+    return oscillates() || norm(motion.velocity) > 0 || (cylinder() && cylinder()->spin != 0);
+  }
 
   /// Where the wall has gone to at time t, and how fast it goes.
   Vec<D> shift(double t) const {

@@ -19,7 +19,8 @@ void keeps_momentum() {
   const Vec<D> before = momentum(gas.grains);
   engine.advance_to(1000);
   const Vec<D> after = momentum(engine.state());
-  for (int k = 0; k < D; ++k) CHECK(after[k] == Approx(before[k]).margin(1e-12 * static_cast<double>(gas.grains.moving)));
+  for (int k = 0; k < D; ++k)
+    CHECK(after[k] == Approx(before[k]).margin(1e-12 * static_cast<double>(gas.grains.moving)));
   const auto e = engine.energy();
   CHECK(engine.tells()[0].second > 300);
   CHECK(e.normal_loss > 0);

@@ -59,8 +59,9 @@ struct Descent {
       const double fast = norm(flight.velocity_at(t)) + wall.top_speed();
       for (int k = 0; k < D; ++k)
         if (domain.periodic(k))
-          step = std::min(step, certainly_above(std::max(domain.length[k] / 2 - ending->extent() - flight.radius, 0.0),
-                                                -fast, pull));
+          step = std::min(
+              step, certainly_above(std::max(domain.length[k] / 2 - ending->extent() - flight.radius, 0.0),
+                                    -fast, pull));
     }
     return step;
   }
@@ -69,11 +70,13 @@ struct Descent {
 }  // namespace
 
 template <int D>
-double first_contact_with_wall(const Flight<D>& flight, const Wall<D>& wall, const Domain<D>& domain, double limit) {
+double first_contact_with_wall(const Flight<D>& flight, const Wall<D>& wall, const Domain<D>& domain,
+                               double limit) {
   const Descent<D> descent{flight, wall, domain};
   Standing now = descent.at(flight.time);
   if (!wall.oscillates() && !wall.cylinder() && !wall.bounded()) {
-    const double t = flight.time + first_contact_with_plane(now.height, now.speed, dot(flight.gravity, wall.normal));
+    const double t =
+        flight.time + first_contact_with_plane(now.height, now.speed, dot(flight.gravity, wall.normal));
     return t <= limit ? t : never;
   }
   const double close = close_enough * flight.radius;

@@ -91,10 +91,12 @@ double HybridEngine<D>::fly(double end) {
     const auto& f = flights_[i];
     const double way = norm(f.place_at(end) - f.place);
     if (!(way <= farthest_move * setup_.diameter))
-      leave_physics(i, std::isnan(way) ? "its place is not a number"
-                                       : fmt::format("it moves {:.3g} diameters in a step, more than {} that are safe: give a "
-                                                     "shorter engine.time_step",
-                                                     way / setup_.diameter, farthest_move));
+      leave_physics(
+          i, std::isnan(way)
+                 ? "its place is not a number"
+                 : fmt::format("it moves {:.3g} diameters in a step, more than {} that are safe: give a "
+                               "shorter engine.time_step",
+                               way / setup_.diameter, farthest_move));
     farthest = std::max(farthest, way);
   }
   return farthest;
@@ -118,7 +120,8 @@ void HybridEngine<D>::find_pairs(Nearby& nearby, double end) {
 }
 
 template <int D>
-Contact HybridEngine<D>::told(std::size_t i, std::size_t j, const Vec<D>& place, const Vec<D>& way, const Vec<D>& force) const {
+Contact HybridEngine<D>::told(std::size_t i, std::size_t j, const Vec<D>& place, const Vec<D>& way,
+                              const Vec<D>& force) const {
   const double distance = norm(way);
   const Vec<D> n = (1 / distance) * way;
   Contact contact;
@@ -141,7 +144,8 @@ void HybridEngine<D>::account(const Hit<D>& hit) {
   const hard::Meeting* train = meetings_.running(hit.i, hit.j, hit.time);
   note_touch(hit, (1 / norm(hit.way)) * hit.way, train);
   meetings_.note(hit.i, hit.j, hit.time, as_file_vector(hit.done.impulse));
-  if (collecting_collisions_) collisions_.push_back({told(hit.i, hit.j, hit.place, hit.way, hit.done.impulse), hit.time});
+  if (collecting_collisions_)
+    collisions_.push_back({told(hit.i, hit.j, hit.place, hit.way, hit.done.impulse), hit.time});
 }
 
 /// An impact, or the lasting contact goes on; n from i to j.
@@ -178,14 +182,16 @@ void HybridEngine<D>::push_apart(double end) {
     const Vec<D> way = setup_.domain.way(flights_[i].place, flights_[j].place);
     const double distance = norm(way), overlap = flights_[i].radius + flights_[j].radius - distance;
     if (!(overlap > 0)) continue;
-    const Vec<D> apart = push(overlap) / (distance * (grains_.inverse_mass[i] + grains_.inverse_mass[j])) * way;
+    const Vec<D> apart =
+        push(overlap) / (distance * (grains_.inverse_mass[i] + grains_.inverse_mass[j])) * way;
     move_apart(i, -grains_.inverse_mass[i] * apart);
     if (j < grains_.moving) move_apart(j, grains_.inverse_mass[j] * apart);
   }
   for (const auto& wall : setup_.walls)
     for (std::size_t i = 0; i < grains_.moving; ++i) {
       const auto touch = wall.nearest(flights_[i].place, end, setup_.domain);
-      if (touch.height < flights_[i].radius) move_apart(i, push(flights_[i].radius - touch.height) * touch.normal);
+      if (touch.height < flights_[i].radius)
+        move_apart(i, push(flights_[i].radius - touch.height) * touch.normal);
     }
 }
 
@@ -198,7 +204,8 @@ std::vector<std::pair<std::string, double>> HybridEngine<D>::tells() const {
 
 template <int D>
 void HybridEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, grain, what));
+  throw WorkError(
+      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, grain, what));
 }
 
 /// Brings what others see to the latest step.
@@ -213,7 +220,8 @@ void HybridEngine<D>::show() {
       if (i < grains_.moving) grains_.wraps[axis][i] = f.wraps[axis];
       force_[axis][i] = 0;
     }
-    for (std::size_t k = 0; k < orientation_numbers<D>; ++k) grains_.orientation[k][i] = f.orientation[static_cast<int>(k)];
+    for (std::size_t k = 0; k < orientation_numbers<D>; ++k)
+      grains_.orientation[k][i] = f.orientation[static_cast<int>(k)];
     for (std::size_t k = 0; k < turns<D>; ++k) grains_.spin[k][i] = f.spin[static_cast<int>(k)];
   }
   for (const auto& c : contacts())

@@ -14,6 +14,9 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
+/// Fewer islands than this are done sooner by one thread than the others are woken, each taking about a microsecond.
+constexpr std::size_t islands_worth_sharing = 64;
+
 /// An approach slower than this part of what gravity gives in a step is rounding: the grains touch and do not collide.
 constexpr double rounding = 1e-9;
 
@@ -31,7 +34,8 @@ void Step<D>::list_partners(const search::PairNames& pairs, double begin) {
     for (std::size_t i = 0; i < grains_.moving; ++i) {
       const auto& f = flight(i);
       // Twice the way: a collision may throw it on, and at most a resting pile presses it anew.
-      const double reach = f.radius + 2 * ((norm(f.velocity) + wall.top_speed()) * dt + fall) + farthest_move * setup_.diameter;
+      const double reach = f.radius + 2 * ((norm(f.velocity) + wall.top_speed()) * dt + fall) +
+                           farthest_move * setup_.diameter;
       if (wall.nearest(f.place, begin, setup_.domain).height < reach)
         partners_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(grains_.size() + w)});
     }
@@ -59,7 +63,8 @@ std::int64_t Step<D>::version(const Partners& p) {
 template <int D>
 double Step<D>::contact(const Partners& p) {
   const auto& a = flight(p.i);
-  if (is_wall(p.j)) return hard::first_contact_with_wall(a, setup_.walls[p.j - grains_.size()], setup_.domain, end_);
+  if (is_wall(p.j))
+    return hard::first_contact_with_wall(a, setup_.walls[p.j - grains_.size()], setup_.domain, end_);
   const auto& b = flight(p.j);
   const double from = moves(p.j) ? std::max(a.time, b.time) : a.time;
   hard::Approach<D> approach;
@@ -113,8 +118,8 @@ std::size_t Step<D>::gather(const std::vector<std::uint32_t>& to_check) {
 }
 
 template <int D>
-const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& flights, const search::PairNames& pairs,
-                                                  double end, Team& team) {
+const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& flights,
+                                                  const search::PairNames& pairs, double end, Team& team) {
   flights_ = &flights;
   outcome_.hits.clear();
   outcome_.put_off = 0;
@@ -127,8 +132,9 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
   std::iota(to_check.begin(), to_check.end(), 0);
   for (std::size_t count; (count = gather(to_check)) > 0;) {
     moved_.assign(grains_.moving, 0);
-    team.run([&](std::size_t member) {
-      for (std::size_t k = member; k < count; k += team.size()) collide(islands_[k]);
+    Team& members = count < islands_worth_sharing ? Team::alone() : team;
+    members.run([&](std::size_t member) {
+      for (std::size_t k = member; k < count; k += members.size()) collide(islands_[k]);
     });
     to_check.clear();
     std::vector<std::uint32_t> moved;
@@ -150,7 +156,9 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
     to_check.erase(std::unique(to_check.begin(), to_check.end()), to_check.end());
     std::erase_if(to_check, [&](std::uint32_t p) {
       const auto& partners = partners_[p];
-      const auto spent = [&](std::uint32_t g) { return moves(g) && grain_collisions_[g] >= collisions_per_grain; };
+      const auto spent = [&](std::uint32_t g) {
+        return moves(g) && grain_collisions_[g] >= collisions_per_grain;
+      };
       return partners.collisions >= setup_.collisions_per_pair || spent(partners.i) || spent(partners.j);
     });
   }
@@ -186,7 +194,9 @@ void Step<D>::collide(Island& island) {
     island.events.pop_back();
     Partners& p = partners_[event.partners];
     if (event.version != version(p)) continue;
-    const auto spent = [&](std::uint32_t g) { return moves(g) && grain_collisions_[g] >= collisions_per_grain; };
+    const auto spent = [&](std::uint32_t g) {
+      return moves(g) && grain_collisions_[g] >= collisions_per_grain;
+    };
     if (p.collisions >= setup_.collisions_per_pair || spent(p.i) || spent(p.j)) {
       ++island.put_off;
       continue;
@@ -211,7 +221,9 @@ template <int D>
 bool Step<D>::collide(Island& island, Partners& p, double time) {
   auto& a = flight(p.i);
   Hit<D> hit{time, p.i, p.j, a.place_at(time), {}, {}, {}, 0};
-  laws::Collider<D> i{a.velocity_at(time), a.spin, a.radius, grains_.inverse_mass[p.i], grains_.inverse_inertia[p.i]}, j;
+  laws::Collider<D> i{a.velocity_at(time), a.spin, a.radius, grains_.inverse_mass[p.i],
+                      grains_.inverse_inertia[p.i]},
+      j;
   auto contact = setup_.contact;
   if (is_wall(p.j)) {
     const auto& wall = setup_.walls[p.j - grains_.size()];
@@ -222,7 +234,8 @@ bool Step<D>::collide(Island& island, Partners& p, double time) {
   } else {
     const auto& b = flight(p.j);
     hit.way = setup_.domain.way(hit.place, moves(p.j) ? b.place_at(time) : b.place);
-    j = {moves(p.j) ? b.velocity_at(time) : Vec<D>{}, b.spin, b.radius, grains_.inverse_mass[p.j], grains_.inverse_inertia[p.j]};
+    j = {moves(p.j) ? b.velocity_at(time) : Vec<D>{}, b.spin, b.radius, grains_.inverse_mass[p.j],
+         grains_.inverse_inertia[p.j]};
   }
   const Vec<D> n = (1 / norm(hit.way)) * hit.way, surface = j.velocity;
   hit.velocity = j.velocity - i.velocity;

@@ -63,7 +63,8 @@ class Step {
   };
   /// Lets the grains in `flights`, whose times are the step's begin, collide until `end`. `pairs` are those that may
   /// meet.
-  const Outcome& collide(std::vector<hard::Flight<D>>& flights, const search::PairNames& pairs, double end, Team& team);
+  const Outcome& collide(std::vector<hard::Flight<D>>& flights, const search::PairNames& pairs, double end,
+                         Team& team);
 
  private:
   /// What two partners have in common: a pair of grains, or a grain and a wall.
