@@ -36,7 +36,9 @@ class KeyLister {
   void value(std::string_view key, std::int64_t v, Range range = any_number, Text text = {}) {
     add(key, "whole number", range_text(range), fmt::format("{}", v), text);
   }
-  void value(std::string_view key, bool v, Text text = {}) { add(key, "bool", "", v ? "true" : "false", text); }
+  void value(std::string_view key, bool v, Text text = {}) {
+    add(key, "bool", "", v ? "true" : "false", text);
+  }
   void value(std::string_view key, const std::string& v, Text text = {}) { add(key, "text", "", v, text); }
   void value(std::string_view key, const std::vector<double>& v, Range range = any_number, Text text = {}) {
     add(key, "numbers", range_text(range), v.empty() ? "" : fmt::format("{}", v), text);
@@ -46,7 +48,8 @@ class KeyLister {
   }
   template <class T>
   void value(std::string_view key, const T& v, const char* text) {
-    if constexpr (std::same_as<T, double> || std::same_as<T, std::int64_t> || std::same_as<T, std::vector<double>>)
+    if constexpr (std::same_as<T, double> || std::same_as<T, std::int64_t> ||
+                  std::same_as<T, std::vector<double>>)
       value(key, v, any_number, Text(text));
     else
       value(key, v, Text(text));
@@ -193,8 +196,8 @@ void choose_kind(TomlReader& a, std::string_view key, Chosen<Base>& chosen, cons
   const auto which = static_cast<std::size_t>(a.choose(key, current, words));
   if (list[which].word != chosen.word()) chosen = Chosen<Base>(list[which]);
 }
-template <class Base>
-void choose_kind(TomlWriter& a, std::string_view key, Chosen<Base>& chosen, const Catalogue<Base>&) {
+template <class Archive, class Base>
+void choose_kind(Archive& a, std::string_view key, Chosen<Base>& chosen, const Catalogue<Base>&) {
   a.value(key, chosen.word());
 }
 

@@ -14,7 +14,7 @@ namespace chute::io {
 
 /// What every file says about its run.
 struct RunFacts {
-  std::string units;               ///< "SI" or "reduced"
+  std::string units;  ///< "SI" or "reduced"
   int dimensions = 2;
   std::array<double, 6> domain{};  ///< x0 x1 y0 y1 z0 z1; equal ends where it is not periodic
   std::array<double, 3> gravity{};
@@ -32,7 +32,8 @@ RunFacts facts_of(const World<D>& world, std::string units) {
   facts.units = std::move(units);
   facts.dimensions = D;
   facts.gravity = as_file_vector(world.gravity);
-  for (const auto& wall : world.walls) facts.walls.push_back({as_file_vector(wall.point), as_file_vector(wall.normal)});
+  for (const auto& wall : world.walls)
+    facts.walls.push_back({as_file_vector(wall.point), as_file_vector(wall.normal)});
   for (int k = 0; k < D; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     double low = world.domain.lower[k], high = low;
@@ -49,8 +50,12 @@ RunFacts facts_of(const World<D>& world, std::string units) {
   return facts;
 }
 
+/// Files are compressed; checkpoints, which are written often and read rarely, need not be.
+enum class Packing { compressed, plain };
+
 /// All grains as vertices, with the fields that core/grains.hpp declares. 2D grains lie at z = 0 and spin about z.
-std::string grains_vtp(const GrainsView& grains, const RunFacts& facts);
+std::string grains_vtp(const GrainsView& grains, const RunFacts& facts,
+                       Packing packing = Packing::compressed);
 
 /// One vertex per impact, where the surfaces met.
 std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts);

@@ -35,7 +35,8 @@ static void describe(Archive& a, Incline& incline) {
 
 template <class Archive>
 static void describe(Archive& a, DomainSpec& domain) {
-  a.value("periodic", domain.periodic, "directions that repeat, of \"x\", \"y\", \"z\"; default all along the bed");
+  a.value("periodic", domain.periodic,
+          "directions that repeat, of \"x\", \"y\", \"z\"; default all along the bed");
   a.value("size", domain.size, positive, "lengths along x, y, z, where the bed does not say them");
 }
 
@@ -75,8 +76,10 @@ static void describe(Archive& a, GrainsSpec& grains) {
     a.section("diameter", grains.diameter);
     a.value("size_ratio", grains.size_ratio, positive, "R/r, instead of a diameter");
   }
-  a.value("density", grains.density, positive, "of the grains, spheres in 2D too; default 6/π in reduced units: m = d³");
-  a.value("independent", grains.independent, "grains do not feel each other: many starts of one, side by side");
+  a.value("density", grains.density, positive,
+          "of the grains, spheres in 2D too; default 6/π in reduced units: m = d³");
+  a.value("independent", grains.independent,
+          "grains do not feel each other: many starts of one, side by side");
   a.value("rotation", grains.rotation, "false: grains never spin, as if friction acted at their centres");
   if constexpr (Archive::reading)
     a.check(brought || grains.diameter.has_value() != grains.size_ratio.has_value(),
@@ -114,7 +117,8 @@ static void describe(Archive& a, Run& run) {
 
 static measure::Scales scales_of(const Scene& scene) {
   const double d = scene.bed->diameter, g = scene.incline.gravity;
-  return {scene.duration, d, g > 0 ? std::sqrt(g * d) : 1, g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4};
+  return {scene.duration, d, g > 0 ? std::sqrt(g * d) : 1,
+          g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4};
 }
 
 Scene::Scene() : bed(beds::list().front()), engine(engines::list().front()) {
@@ -144,7 +148,8 @@ static void describe(Archive& a, Scene& scene) {
     if (!scene.si()) scene.grains.density = 6 / std::numbers::pi;
   }
   a.required_section("incline", scene.incline);
-  if (Archive::reading || scene.domain.periodic || scene.domain.size) a.section("domain", scene.domain);
+  if (!std::same_as<Archive, TomlWriter> || scene.domain.periodic || scene.domain.size)
+    a.section("domain", scene.domain);
   BedTable bed{scene.bed};
   a.required_section("bed", bed);
   a.required_section("grains", scene.grains);
@@ -205,6 +210,21 @@ std::string to_toml(const Scene& scene) {
   Scene copy = scene;
   describe(writer, copy);
   return writer.text();
+}
+
+std::vector<KeyText> plain_keys() {
+  KeyLister lister;
+  Scene scene;
+  scene.incline.angle = "18 deg";
+  describe(lister, scene);
+  std::vector<KeyText> keys;
+  for (const auto& key : lister.keys()) {
+    const auto in = [&](const char* table) { return key.key.starts_with(table); };
+    const bool told_elsewhere = in("bed.") || in("grains.start.") || in("engine.") || in("contact.") ||
+                                (in("output.") && key.key != "output.checkpoint");
+    if (!told_elsewhere) keys.push_back(key);
+  }
+  return keys;
 }
 
 }  // namespace chute::scene

@@ -59,7 +59,8 @@ TEST_CASE("the collisions of a settling heap add up to its changes of momentum, 
     for (int k = 0; k < 2; ++k) {
       const auto axis = static_cast<std::size_t>(k);
       const double change = view.mass[i] * (view.velocity[axis][i] - start.velocity[axis][i]);
-      CHECK(given[i][k] == Approx(change - view.mass[i] * heap.setup.gravity[k] * engine.time()).margin(1e-9));
+      CHECK(given[i][k] ==
+            Approx(change - view.mass[i] * heap.setup.gravity[k] * engine.time()).margin(1e-9));
     }
   CHECK(with_bed);
   // what touches for a while has a mean force, friction in it, and grains feel it

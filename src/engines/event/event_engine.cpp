@@ -125,7 +125,8 @@ template <int D>
 double EventEngine<D>::contact_with_wall(std::size_t i, std::size_t wall) const {
   const auto& w = setup_.walls[wall];
   const Flight<D>& f = flights_[i];
-  return f.time + first_contact_with_plane(w.height(f.place) - f.radius, dot(f.velocity, w.normal), dot(f.gravity, w.normal));
+  return f.time + first_contact_with_plane(w.height(f.place) - f.radius, dot(f.velocity, w.normal),
+                                           dot(f.gravity, w.normal));
 }
 
 /// Looks for grain i's earliest collision: among all neighbours, the likely one first, or, after a crossing,

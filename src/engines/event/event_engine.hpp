@@ -5,8 +5,8 @@
 #include "core/engine.hpp"
 #include "core/world.hpp"
 #include "engines/event/cells.hpp"
-#include "engines/event/meetings.hpp"
 #include "engines/event/event_queue.hpp"
+#include "engines/event/meetings.hpp"
 #include "laws/walton.hpp"
 
 namespace chute::event {
@@ -123,7 +123,8 @@ class EventEngine final : public Engine {
   double contact_with_wall(std::size_t i, std::size_t wall) const;
   bool is_wall(std::size_t partner) const { return partner >= grains_.size(); }
   Vec<D> way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to) const;
-  Contact told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way, const Vec<D>& force) const;
+  Contact told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way,
+               const Vec<D>& force) const;
   void look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely);
   void plan(std::size_t i);
   void lay_out();

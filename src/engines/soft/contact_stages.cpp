@@ -130,8 +130,14 @@ void Contacts<D>::reserve(std::size_t most) {
 }
 
 template <int D>
-ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa, SlipRule rule)
-    : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), wall_memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
+ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa,
+                                SlipRule rule)
+    : domain_(domain),
+      laws_(laws),
+      isa_(isa),
+      memory_(laws, rule),
+      wall_memory_(laws, rule),
+      needs_radius_(laws::needs_radius(laws)) {}
 
 /// Writes the pairs of `range` that touch to `pair`, and tells how many they are. In pieces, whose hits stay
 /// in the nearest cache.
@@ -263,7 +269,8 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
 }
 
 template <int D>
-void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const {
+void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double duration,
+                                     ContactMemory<D>& memory) const {
   const double inverse_duration = duration > 0 ? 1 / duration : 0;
   std::visit(
       [&]<class Law>(const Law& law) {
@@ -286,7 +293,8 @@ void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double d
 }
 
 template <int D>
-void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const {
+void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double duration,
+                                    ContactMemory<D>& memory) const {
   const std::array<Array, turns<D>>& slip = contacts.slip;
   std::visit(
       [&]<class Law>(const Law& law) {

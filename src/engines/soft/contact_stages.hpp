@@ -6,10 +6,10 @@
 #include "core/domain.hpp"
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
-#include "laws/list.hpp"
-#include "search/neighbour_list.hpp"
 #include "engines/soft/contact_memory.hpp"
 #include "engines/soft/contacts.hpp"
+#include "laws/list.hpp"
+#include "search/neighbour_list.hpp"
 
 namespace chute::soft {
 
@@ -46,7 +46,8 @@ class ContactStages {
   /// own.
   void evaluate_walls(const Grains<D>& grains, Contacts<D>& contacts, double duration);
   /// Adds what they do to each grain.
-  void apply_walls(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums) const;
+  void apply_walls(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
+                   GrainSums<D>& sums) const;
 
   /// Adds what the contacts do to each grain, in their order, over `duration`.
   void apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums,

@@ -9,7 +9,8 @@ namespace chute::soft {
 namespace {
 
 template <int D>
-std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const engines::Setting& setting, int threads) {
+std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const engines::Setting& setting,
+                             int threads) {
   SoftSetup<D> setup{world.surroundings()};
   setup.laws = setting.contact.laws(setting.reference());
   setup.scheme = method.integrator;
@@ -18,7 +19,8 @@ std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const eng
   setup.deepest_overlap = method.deepest_overlap;
   setup.contact_time = setting.contact.impact(setting.reference()).contact_time;
   const auto moving = static_cast<std::int64_t>(world.grains.moving);
-  setup.threads = static_cast<int>(std::clamp<std::int64_t>(moving / SoftMethod::grains_per_thread, 1, threads));
+  setup.threads =
+      static_cast<int>(std::clamp<std::int64_t>(moving / SoftMethod::grains_per_thread, 1, threads));
   return std::make_unique<SoftEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -38,7 +40,8 @@ std::vector<Fact> SoftMethod::facts(const engines::Setting& s) const {
   auto list = laws::impact_facts(s.contact, s.si, s.pairs);
   const double dt = step(s), t_n = s.contact.impact(s.reference(), s.shortest().pair).contact_time;
   if (s.stiffest)
-    list.push_back({"t_n/dt least", t_n / dt, "", "steps in the contact of " + s.stiffest->name + ", which sets dt"});
+    list.push_back(
+        {"t_n/dt least", t_n / dt, "", "steps in the contact of " + s.stiffest->name + ", which sets dt"});
   const auto rest = laws::step_facts(s.contact, s.si, s.pairs.front(), dt);
   list.insert(list.end(), rest.begin(), rest.end());
   return list;
