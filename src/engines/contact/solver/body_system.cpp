@@ -1,5 +1,8 @@
 #include "engines/contact/solver/body_system.hpp"
 
+#include <algorithm>
+#include <cassert>
+
 namespace chute::contact {
 
 template <int D>
@@ -59,6 +62,7 @@ BodySystem<D>::BodySystem(const BodyArrays<D>& bodies, const ContactArrays<D>& c
     g = {index(contacts.a[i]), index(contacts.b[i]),       moves(contacts.a[i]), moves(contacts.b[i]),
          frame_of(contacts.normal[i]), contacts.arm_a[i], contacts.arm_b[i],    contacts.offset[i]};
     contacts_[k] = OneContact<D>(own_block(g), contacts.friction[i]);
+    assert(contacts_[k].w()(0, 0) > 0 && "a contact needs a body that moves");
     const auto q = without(k);
     reference_ += std::pow(contacts_[k].rho(), 2) * dot(q, q);
   }
@@ -86,7 +90,14 @@ void BodySystem<D>::hand_back(const BodyArrays<D>& bodies, const ContactArrays<D
     for (int k = 0; k < D; ++k) bodies.velocity[k][i] = motion_[i].velocity[k];
     for (std::size_t k = 0; k < bodies.spin.size(); ++k) bodies.spin[k][i] = motion_[i].spin[static_cast<int>(k)];
   }
-  for (std::size_t k = 0; k < r_.size(); ++k) contacts.impulse[order_.contacts[k]] = r_[k];
+  std::ranges::copy(result(), contacts.impulse.begin());
+}
+
+template <int D>
+std::vector<Vec<D>> BodySystem<D>::result() const {
+  std::vector<Vec<D>> r(r_.size());
+  for (std::size_t k = 0; k < r.size(); ++k) r[order_.contacts[k]] = r_[k];
+  return r;
 }
 
 template class BodySystem<2>;

@@ -97,6 +97,8 @@ class BodySystem {
 
   /// √Σ|ρ q|²: the impulses that would stop all contacts one by one, the measure of the residual.
   double reference() const { return reference_; }
+  /// Impulses in the contacts' own order.
+  std::vector<Vec<D>> result() const;
   /// Writes velocities, spins and impulses.
   void hand_back(const BodyArrays<D>& bodies, const ContactArrays<D>& contacts) const;
 
