@@ -10,7 +10,9 @@ inline Scene<2> heap(int columns, int rows, double mu, unsigned seed = 1) {
   std::uniform_real_distribution<double> share(-1, 1);
   Scene<2> scene;
   std::vector<int> grain(static_cast<std::size_t>(columns * rows), -1);
-  const auto at = [&](int column, int row) -> int& { return grain[static_cast<std::size_t>(row * columns + column)]; };
+  const auto at = [&](int column, int row) -> int& {
+    return grain[static_cast<std::size_t>(row * columns + column)];
+  };
   const double across = std::sqrt(0.75);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column + row < columns; ++column) {

@@ -56,7 +56,8 @@ TEMPLATE_TEST_CASE_SIG("a block on an incline sticks, slides or leaves", "", ((i
   CHECK(rising.impulse[0] == Vec<D>{});
 }
 
-TEMPLATE_TEST_CASE_SIG("a disc or sphere rolls where tan θ ≤ (1 + κ)/κ μ and else slides", "", ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a disc or sphere rolls where tan θ ≤ (1 + κ)/κ μ and else slides", "", ((int D), D),
+                       2, 3) {
   const double mu = 0.1, m = 3, radius = 0.5, kappa = D == 2 ? 0.5 : 0.4;
   for (const double incline : {0.1, 0.25, 0.29, 0.33, 0.4, 1.0}) {
     Scene<D> scene;
@@ -151,7 +152,8 @@ TEST_CASE("static friction holds what sliding friction does not, and lets go for
   for (const std::size_t k : {2u, 3u})
     CHECK(std::abs(broken.impulse[k][1]) == near((need - 0.05) * broken.impulse[k][0]));
   // the floor's contacts need less than μ_d: they stick throughout
-  for (const std::size_t k : {0u, 1u}) CHECK(std::abs(broken.impulse[k][1]) < 0.9 * (need - 0.05) * broken.impulse[k][0]);
+  for (const std::size_t k : {0u, 1u})
+    CHECK(std::abs(broken.impulse[k][1]) < 0.9 * (need - 0.05) * broken.impulse[k][0]);
 }
 
 TEST_CASE("static friction on a block: both states between the two angles") {

@@ -117,7 +117,8 @@ TEST_CASE("the residual is what its definition says, and free of units") {
   };
   const double expected = by_hand(problem, r);
   REQUIRE(expected > 0.1);
-  REQUIRE_THAT(natural_residual<3>(problem, r, test::reference(problem)), WithinAbs(expected, 1e-12 * expected));
+  REQUIRE_THAT(natural_residual<3>(problem, r, test::reference(problem)),
+               WithinAbs(expected, 1e-12 * expected));
   // the solver reports the same: after one sweep it has not arrived
   Team team(1);
   AssembledSystem<3> system(problem, r);
@@ -131,7 +132,8 @@ TEST_CASE("the residual is what its definition says, and free of units") {
   for (auto& q : scaled.q) q = 1e3 * q;
   auto scaled_r = r;
   for (auto& x : scaled_r) x = 1e6 * x;
-  REQUIRE_THAT(natural_residual<3>(scaled, scaled_r, test::reference(scaled)), WithinAbs(expected, 1e-12 * expected));
+  REQUIRE_THAT(natural_residual<3>(scaled, scaled_r, test::reference(scaled)),
+               WithinAbs(expected, 1e-12 * expected));
 }
 
 }  // namespace

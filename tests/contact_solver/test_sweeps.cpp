@@ -1,6 +1,5 @@
 // The order of sweeps, threads, and how many sweeps it takes.
 #include <catch2/catch.hpp>
-
 #include <set>
 
 #include "heap.hpp"

@@ -16,7 +16,8 @@ TEMPLATE_TEST_CASE_SIG("fast and exact agree where the solution is unique", "", 
   int lost = 0, slid = 0, opened = 0, stuck = 0;
   constexpr int problems = 300;
   for (int k = 0; k < problems; ++k) {
-    const auto problem = test::random_problem<D>(dice, 1 + static_cast<std::size_t>(k) % 12, k % 3 ? 0.3 : 0.0);
+    const auto problem =
+        test::random_problem<D>(dice, 1 + static_cast<std::size_t>(k) % 12, k % 3 ? 0.3 : 0.0);
     AssembledSystem<D> system(problem);
     REQUIRE(nsgs(system, goal, team).reached);
     const auto fast = system.result();

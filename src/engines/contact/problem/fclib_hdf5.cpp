@@ -48,7 +48,8 @@ class File {
   }
   std::vector<double> numbers(const std::string& key, std::size_t count) const {
     auto values = numbers(key);
-    if (values.size() != count) complain(key, fmt::format("must have {} numbers, not {}", count, values.size()));
+    if (values.size() != count)
+      complain(key, fmt::format("must have {} numbers, not {}", count, values.size()));
     return values;
   }
   std::vector<long long> integers(const std::string& key) const {
@@ -153,17 +154,19 @@ void read_size(const File& file, const std::string& group, Parts& parts, std::si
   if (parts.contacts == 0 || parts.contacts > most_contacts)
     file.complain(group + "/vectors/mu", fmt::format("must have 1 to {} numbers", most_contacts));
   if (columns != d * parts.contacts)
-    file.complain(group, fmt::format("{} contacts in {} dimensions need {} columns, not {}", parts.contacts, d,
-                                     d * parts.contacts, columns));
+    file.complain(group, fmt::format("{} contacts in {} dimensions need {} columns, not {}", parts.contacts,
+                                     d, d * parts.contacts, columns));
 }
 
 Parts read_local(const File& file) {
   const std::string group = "/fclib_local";
-  if (file.has(group + "/V") || file.has(group + "/R")) file.complain(group, "equality constraints are not supported");
+  if (file.has(group + "/V") || file.has(group + "/R"))
+    file.complain(group, "equality constraints are not supported");
   Parts parts;
   auto w = read_sparse(file, group + "/W");
   read_size(file, group, parts, w.columns);
-  if (w.rows != w.columns) file.complain(group + "/W", fmt::format("must be square, not {} by {}", w.rows, w.columns));
+  if (w.rows != w.columns)
+    file.complain(group + "/W", fmt::format("must be square, not {} by {}", w.rows, w.columns));
   parts.matrix = std::move(w.entries);
   parts.q = file.numbers(group + "/vectors/q", w.rows);
   return parts;
@@ -203,10 +206,13 @@ Parts read_global(const File& file) {
     file.complain(group, fmt::format("W would have more than {} elements", most_elements));
   const Matrix delassus = Matrix(h.transpose()) * accelerations;
   each(delassus, [&](const auto& it) {
-    parts.matrix.push_back({static_cast<std::size_t>(it.row()), static_cast<std::size_t>(it.col()), it.value()});
+    parts.matrix.push_back(
+        {static_cast<std::size_t>(it.row()), static_cast<std::size_t>(it.col()), it.value()});
   });
-  const Eigen::VectorXd free = inverse.solve(Eigen::Map<const Eigen::VectorXd>(f.data(), static_cast<int>(f.size())));
-  const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(w.data(), static_cast<int>(w.size())) + h.transpose() * free;
+  const Eigen::VectorXd free =
+      inverse.solve(Eigen::Map<const Eigen::VectorXd>(f.data(), static_cast<int>(f.size())));
+  const Eigen::VectorXd q =
+      Eigen::Map<const Eigen::VectorXd>(w.data(), static_cast<int>(w.size())) + h.transpose() * free;
   parts.q.assign(q.begin(), q.end());
   return parts;
 }

@@ -49,11 +49,13 @@ void work(const Problem<D>& problem, const Wish& wish) {
   const auto solution = solve(problem, wish);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const auto& c = solution.convergence;
-  fmt::print("{}: {} contacts in {} dimensions, {} blocks\n", wish.file, problem.size(), D, problem.blocks.size());
-  fmt::print("{}: {} iterations, residual {:.3e}, {:.6f} s\n", wish.solver, c.iterations, c.residual, took.count());
+  fmt::print("{}: {} contacts in {} dimensions, {} blocks\n", wish.file, problem.size(), D,
+             problem.blocks.size());
+  fmt::print("{}: {} iterations, residual {:.3e}, {:.6f} s\n", wish.solver, c.iterations, c.residual,
+             took.count());
   if (!c.reached)
-    throw WorkError(fmt::format("{}: the residual is {:.3e} after {} iterations, not {:g}", wish.file, c.residual,
-                                c.iterations, wish.goal.tolerance));
+    throw WorkError(fmt::format("{}: the residual is {:.3e} after {} iterations, not {:g}", wish.file,
+                                c.residual, c.iterations, wish.goal.tolerance));
   if (!wish.output.empty()) write<D>(wish.output, solution.r);
 }
 
@@ -65,7 +67,8 @@ int say(Status status, const std::string& what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"contact_problem solves a problem of frictional contact: FCLIB's HDF5 files and Siconos's text files."};
+  CLI::App app{
+      "contact_problem solves a problem of frictional contact: FCLIB's HDF5 files and Siconos's text files."};
   app.name("contact_problem");
   Wish wish;
   wish.goal.iterations = 100'000;
@@ -82,7 +85,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", wish.threads, "the same bytes with any number")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  app.add_option("-o", wish.output, "write the impulses, one number a line, contact by contact, normal first");
+  app.add_option("-o", wish.output,
+                 "write the impulses, one number a line, contact by contact, normal first");
   app.footer("Example: contact_problem Capsules.hdf5 --tolerance 1e-10 -o impulses.txt");
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, as a full disk is
   try {

@@ -10,7 +10,7 @@ namespace chute::contact {
 struct Parts {
   int dimensions = 0;
   std::size_t contacts = 0;
-  std::vector<Entry> matrix;      ///< of W
+  std::vector<Entry> matrix;        ///< of W
   std::vector<double> q, friction;  ///< dimensions × contacts; contacts
 };
 

@@ -35,9 +35,7 @@ class Words {
     rest_.remove_prefix(word.size());
     return word;
   }
-  void skip_line() {
-    rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size()));
-  }
+  void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
   double number(const char* what) {
     const auto word = next(what);
     double x = 0;
@@ -54,7 +52,8 @@ class Words {
     std::size_t n = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
     if (error != std::errc{} || end != word.data() + word.size() || n > most)
-      complain(fmt::format("{} must be a whole number from 0 to {}, not \"{}\"", what, most, word.substr(0, 40)));
+      complain(
+          fmt::format("{} must be a whole number from 0 to {}, not \"{}\"", what, most, word.substr(0, 40)));
     return n;
   }
   void expect(const char* what, std::size_t value) {
@@ -113,7 +112,8 @@ void read_blocks(Words& words, std::size_t contacts, std::size_t dimensions, std
     while (starts[row + 1] <= k) ++row;
     for (std::size_t c = 0; c < dimensions; ++c)
       for (std::size_t r = 0; r < dimensions; ++r)
-        matrix.push_back({row * dimensions + r, columns[k] * dimensions + c, words.number("an element of a block")});
+        matrix.push_back(
+            {row * dimensions + r, columns[k] * dimensions + c, words.number("an element of a block")});
   }
 }
 
@@ -160,7 +160,8 @@ void read_sparse(Words& words, std::size_t size, std::vector<Entry>& matrix) {
     expect_word("to");
     const auto last = words.next("the column's last location");
     const auto end = last == "-1" ? 0 : words.whole(last, "the column's last location", filled) + 1;
-    if (end < done || end > filled) words.complain("the locations of a column must go up to the number of elements");
+    if (end < done || end > filled)
+      words.complain("the locations of a column must go up to the number of elements");
     for (; done < end; ++done) take(words.count("a row of W", size - 1), column);
   }
   if (done != filled) words.complain(fmt::format("W must have {} elements, not {}", filled, done));

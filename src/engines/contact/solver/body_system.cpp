@@ -45,7 +45,8 @@ BodySystem<D>::BodySystem(const BodyArrays<D>& bodies, const ContactArrays<D>& c
   if (m < few_contacts) {
     order_ = natural_order(m);
   } else {
-    std::vector<std::int32_t> a(contacts.a.begin(), contacts.a.end()), b(contacts.b.begin(), contacts.b.end());
+    std::vector<std::int32_t> a(contacts.a.begin(), contacts.a.end()),
+        b(contacts.b.begin(), contacts.b.end());
     for (auto* side : {&a, &b})
       for (auto& body : *side)
         if (!moves(body)) body = -1;
@@ -55,12 +56,14 @@ BodySystem<D>::BodySystem(const BodyArrays<D>& bodies, const ContactArrays<D>& c
   geometry_.resize(m);
   contacts_.resize(m);
   r_.assign(m, {});
-  const auto index = [&](std::int32_t body) { return static_cast<std::uint32_t>(body < 0 ? count : static_cast<std::size_t>(body)); };
+  const auto index = [&](std::int32_t body) {
+    return static_cast<std::uint32_t>(body < 0 ? count : static_cast<std::size_t>(body));
+  };
   for (std::size_t k = 0; k < m; ++k) {
     const auto i = order_.contacts[k];
     auto& g = geometry_[k];
-    g = {index(contacts.a[i]), index(contacts.b[i]),       moves(contacts.a[i]), moves(contacts.b[i]),
-         frame_of(contacts.normal[i]), contacts.arm_a[i], contacts.arm_b[i],    contacts.offset[i]};
+    g = {index(contacts.a[i]),         index(contacts.b[i]), moves(contacts.a[i]), moves(contacts.b[i]),
+         frame_of(contacts.normal[i]), contacts.arm_a[i],    contacts.arm_b[i],    contacts.offset[i]};
     contacts_[k] = OneContact<D>(own_block(g), contacts.friction[i]);
     assert(contacts_[k].w()(0, 0) > 0 && "a contact needs a body that moves");
     const auto q = without(k);
@@ -88,7 +91,8 @@ template <int D>
 void BodySystem<D>::hand_back(const BodyArrays<D>& bodies, const ContactArrays<D>& contacts) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (int k = 0; k < D; ++k) bodies.velocity[k][i] = motion_[i].velocity[k];
-    for (std::size_t k = 0; k < bodies.spin.size(); ++k) bodies.spin[k][i] = motion_[i].spin[static_cast<int>(k)];
+    for (std::size_t k = 0; k < bodies.spin.size(); ++k)
+      bodies.spin[k][i] = motion_[i].spin[static_cast<int>(k)];
   }
   std::ranges::copy(result(), contacts.impulse.begin());
 }

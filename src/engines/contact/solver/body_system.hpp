@@ -84,7 +84,8 @@ class BodySystem {
     const auto& g = geometry_[place];
     const auto& one = motion_[g.a];
     const auto& other = motion_[g.b];
-    const auto relative = one.velocity + across(one.spin, g.arm_a) - other.velocity - across(other.spin, g.arm_b);
+    const auto relative =
+        one.velocity + across(one.spin, g.arm_a) - other.velocity - across(other.spin, g.arm_b);
     return g.frame * relative + g.offset - contacts_[place].w() * r_[place];
   }
   void set(std::size_t place, const Vec<D>& r) {

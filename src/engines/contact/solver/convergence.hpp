@@ -3,7 +3,7 @@ namespace chute::contact {
 
 /// What a solver is asked for.
 struct Goal {
-  double tolerance = 1e-8;  ///< of the residual
+  double tolerance = 1e-8;   ///< of the residual
   long iterations = 10'000;  ///< sweeps over all contacts at most; state sets at most
   /// The impulse (mass × velocity) that the residual is measured by, as h m g of a step under gravity;
   /// 0: √Σ|ρ q|², the impulses that would stop all contacts one by one.

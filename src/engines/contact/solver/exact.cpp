@@ -23,8 +23,7 @@ class StateIteration {
   explicit StateIteration(const Problem<D>& problem) : problem_(problem), m_(problem.size()) {
     for (std::size_t i = 0; i < m_; ++i)
       rho_.push_back(OneContact<D>(problem.blocks[problem.diagonal(i)], 0).rho());
-    for (std::size_t i = 0; i < m_; ++i)
-      reference_ += std::pow(rho_[i], 2) * dot(problem.q[i], problem.q[i]);
+    for (std::size_t i = 0; i < m_; ++i) reference_ += std::pow(rho_[i], 2) * dot(problem.q[i], problem.q[i]);
     reference_ = std::sqrt(reference_);
     states_.assign(m_, State::open);
     directions_.assign(m_, {});
@@ -54,9 +53,10 @@ class StateIteration {
         return false;
       });
       if (!changed)
-        throw WorkError(fmt::format("the states of the contacts came back after {} solutions of (2.33): no set of "
-                                    "states was found that agrees with Coulomb's law",
-                                    solved));
+        throw WorkError(
+            fmt::format("the states of the contacts came back after {} solutions of (2.33): no set of "
+                        "states was found that agrees with Coulomb's law",
+                        solved));
     }
   }
 
@@ -171,7 +171,9 @@ class StateIteration {
       const double n = r_[i][0], opening = rho_[i] * u_[i][0];
       const auto t = shear(r_[i]), slip = rho_[i] * shear(u_[i]);
       switch (states_[i]) {
-        case State::open: offend(-opening, State::slides); break;
+        case State::open:
+          offend(-opening, State::slides);
+          break;
         case State::sticks:
           offend(norm(t) - problem_.friction[i] * std::max(n, 0.0), State::slides);  // (2.34)
           offend(norm(slip), State::slides);  // of a singular system: the others do not let it stick
@@ -188,9 +190,10 @@ class StateIteration {
     const double reference = goal.reference > 0 ? goal.reference : reference_;
     const double residual = natural_residual<D>(problem_, r_, reference);
     if (!(residual <= goal.tolerance))
-      throw WorkError(fmt::format("the states of the contacts agree with Coulomb's law but the equations have no "
-                                  "solution: the residual is {:.1e}",
-                                  residual));
+      throw WorkError(
+          fmt::format("the states of the contacts agree with Coulomb's law but the equations have no "
+                      "solution: the residual is {:.1e}",
+                      residual));
     return {r_, {solved, residual, true}};
   }
 };
@@ -200,7 +203,8 @@ class StateIteration {
 template <int D>
 ExactSolution<D> exact(const Problem<D>& problem, const Goal& goal) {
   if (problem.size() > most_exact)
-    throw InputError(fmt::format("the exact solver takes at most {} contacts, not {}", most_exact, problem.size()));
+    throw InputError(
+        fmt::format("the exact solver takes at most {} contacts, not {}", most_exact, problem.size()));
   return StateIteration<D>(problem).run(goal);
 }
 

@@ -71,12 +71,12 @@ class Solver {
   Team& team_;
   double reference_;
   Anderson anderson_;
-  double check_below_;    // step, in units of the reference, below which the residual is worth its price
-  long done_ = 0;         // sweeps
-  Vector step_, image_;   // of the last sweep
-  Vector safe_;           // the last image that sweeps came to without loss
-  bool proposed_ = false; // the last round began at a proposal
-  double stride_ = 0;     // 0: mixing
+  double check_below_;     // step, in units of the reference, below which the residual is worth its price
+  long done_ = 0;          // sweeps
+  Vector step_, image_;    // of the last sweep
+  Vector safe_;            // the last image that sweeps came to without loss
+  bool proposed_ = false;  // the last round began at a proposal
+  double stride_ = 0;      // 0: mixing
   double last_size_ = std::numeric_limits<double>::infinity(), best_size_ = last_size_;
   int idle_ = 0;
 

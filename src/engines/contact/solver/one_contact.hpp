@@ -98,7 +98,8 @@ class OneContact {
     if (const double was = std::hypot(guess[1], guess[2]); was > 0) {
       // the slip that the guess leaves, along itself
       const Tangential t{{guess[1], guess[2]}};
-      const Tangential u{{a_(0, 0) * t[0] + a_(0, 1) * t[1] + b[0], a_(1, 0) * t[0] + a_(1, 1) * t[1] + b[1]}};
+      const Tangential u{
+          {a_(0, 0) * t[0] + a_(0, 1) * t[1] + b[0], a_(1, 0) * t[0] + a_(1, 1) * t[1] + b[1]}};
       if (const double along = -dot(u, t) / (was * was); along > 0) lambda = along;
     }
     Tangential t;
@@ -116,10 +117,12 @@ class OneContact {
       if (n > 0) {
         const Tangential slope = respond(t, inverse, lambda);  // d r_t/dλ
         const double bound = friction_ * n;
-        const double rise = -dot(t, slope) / (size * size * size) - friction_ * dot(nt_, slope) / (bound * bound);
+        const double rise =
+            -dot(t, slope) / (size * size * size) - friction_ * dot(nt_, slope) / (bound * bound);
         next = lambda - (1 / size - 1 / bound) / rise;
       }
-      if (!(next > low && next < high)) next = high < 1e300 ? (low + high) / 2 : 2 * low + a_(0, 0) + a_(1, 1);
+      if (!(next > low && next < high))
+        next = high < 1e300 ? (low + high) / 2 : 2 * low + a_(0, 0) + a_(1, 1);
       if (next == lambda) break;
       lambda = next;
     }

@@ -7,8 +7,8 @@ namespace chute::contact {
 
 /// Coulomb's relation (2.32) at velocity level: one coefficient for contacts that stick, one for those that slide.
 struct StaticFriction {
-  std::span<const double> held, sliding;     ///< μ_s ≥ μ_d, per contact
-  std::span<const unsigned char> sticking;   ///< whether |v_s| at the step's start counts as none
+  std::span<const double> held, sliding;    ///< μ_s ≥ μ_d, per contact
+  std::span<const unsigned char> sticking;  ///< whether |v_s| at the step's start counts as none
 };
 
 /// Solves with the bound μ_s where a contact sticks at the start and μ_d elsewhere; every contact that ends on the
@@ -16,11 +16,13 @@ struct StaticFriction {
 /// then sticks within its bound or slides with μ_d. `solve(bounds)` gives a Convergence; `impulses()` the r that
 /// it came to, in the order of the contacts.
 template <class Solve, class Impulses>
-Convergence with_static_friction(const StaticFriction& friction, const Solve& solve, const Impulses& impulses) {
+Convergence with_static_friction(const StaticFriction& friction, const Solve& solve,
+                                 const Impulses& impulses) {
   constexpr double rounding = 1e-9;  // of the bound: a contact as near to its cone as this is on it
   const auto m = friction.held.size();
   std::vector<double> bound(m);
-  for (std::size_t i = 0; i < m; ++i) bound[i] = friction.sticking[i] ? friction.held[i] : friction.sliding[i];
+  for (std::size_t i = 0; i < m; ++i)
+    bound[i] = friction.sticking[i] ? friction.held[i] : friction.sliding[i];
   Convergence all = solve(bound);
   for (bool broken = true; broken;) {
     broken = false;

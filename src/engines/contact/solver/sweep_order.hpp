@@ -26,7 +26,8 @@ struct SweepOrder {
     std::size_t begin = 0;
     for (std::size_t c = 0; c < ends.size(); ++c) {
       const auto end = ends[c];
-      const bool alone = team.size() == 1 || end - begin < worth_sharing || (serial_rest && c + 1 == ends.size());
+      const bool alone =
+          team.size() == 1 || end - begin < worth_sharing || (serial_rest && c + 1 == ends.size());
       if (alone)
         for (auto place = begin; place < end; ++place) work(place);
       else
