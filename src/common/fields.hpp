@@ -24,6 +24,23 @@ inline constexpr Field angular_velocity{"angular_velocity", "\\omega", "rad/s", 
 inline constexpr Field angle{"angle", "\\phi", "rad", "rad",
                              false};  ///< turned since the start; draws the spin mark
 inline constexpr Field force{"force", "F", "N", "mg", false};
+inline constexpr Field material{"material", "material", "", "", false};  ///< a number that stands for a kind
+inline constexpr Field orientation{"orientation", "q", "", "",
+                                   true};  ///< unit quaternion w, x, y, z; 3D only
+
+// Contacts: one line each in contacts/NNNNNN.vtp; cell arrays, beside `force` as a vector
+inline constexpr Field a{"a", "first", "", "", false};  ///< id of a grain; wall k is -1 - k
+inline constexpr Field b{"b", "second", "", "", false};
+inline constexpr Field point{"point", "x", "m", "d", true};  ///< where the surfaces meet
+inline constexpr Field normal{"normal", "n", "", "", true};
+inline constexpr Field branch{"branch", "l", "m", "d", true};  ///< from centre to centre
+inline constexpr Field overlap{"overlap", "\\xi", "m", "d", false};
+inline constexpr Field normal_force{"normal_force", "F_n", "N", "mg", true};
+inline constexpr Field shear_force{"shear_force", "F_s", "N", "mg", true};
+inline constexpr Field state{"state", "state", "", "", false};
+
+// Walls: one polygon each (a line in the plane) in walls.vtp; cell arrays, beside `velocity`
+inline constexpr Field wall{"wall", "wall", "", "", false};  ///< its number k
 
 // Impacts: one point each in impacts.vtp, where the surfaces met
 inline constexpr Field time{"time", "t", "s", "\\sqrt{d/g}", false};
@@ -39,7 +56,11 @@ inline constexpr Field rolling{"rolling", "rolling", "", "", false};  ///< 1: ro
 inline constexpr Field bead{"bead", "bead", "", "", false};           ///< id of the grain that was hit
 inline constexpr Field grain{"grain", "grain", "", "", false};        ///< id of the grain that hit
 
-inline constexpr std::array grain_fields{id, type, radius, mass, velocity, angular_velocity, angle, force};
+inline constexpr std::array grain_fields{id,    type,  radius,   mass,       velocity, angular_velocity,
+                                         angle, force, material, orientation};
+inline constexpr std::array contact_fields{a,       b,     point,        normal,      branch,
+                                           overlap, force, normal_force, shear_force, state};
+inline constexpr std::array wall_fields{wall, velocity};
 inline constexpr std::array impact_fields{time,   gamma,        phi,     v_n,  v_t,
                                           flight, gamma_before, rolling, bead, grain};
 
