@@ -1,44 +1,48 @@
-#include "read/contacts.hpp"
+#include "read/network.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/fields.hpp"
 #include "read/vtk_points.hpp"
 
 namespace chute::read {
 
-std::vector<Contact> parse_contacts(std::string bytes, const std::filesystem::path& path) {
+std::vector<ForceLink> parse_network(std::string bytes, const std::filesystem::path& path) {
   const VtkPoints points = parse_vtk(std::move(bytes), path);
-  const PointArray* force = nullptr;
-  for (const char* name : {"force", "normal_force", "Force", "normalForce", "forceNormal"})
+  const PointArray* strength = nullptr;
+  for (const std::string_view name :
+       {fields::normal_force.name, fields::force.name, std::string_view("Force"),
+        std::string_view("normalForce"), std::string_view("forceNormal")})
     for (const auto& array : points.cell_arrays)
-      if (array.name == name && !force) force = &array;
-  if (points.lines.empty()) return {};
-  if (!force)
-    throw InputError(path.string() +
-                     ": no cell array \"force\" or \"normal_force\", the strength of each contact");
-  std::vector<Contact> contacts;
-  contacts.reserve(points.lines.size());
-  for (std::size_t i = 0; i < points.lines.size(); ++i) {
-    const auto [a, b] = points.lines[i];
-    double squared = 0;
-    for (int c = 0; c < force->components; ++c) squared += std::pow(force->at(points.line_cells[i], c), 2);
-    const Contact contact{
-        {points.x[a], points.y[a], points.z[a]}, {points.x[b], points.y[b], points.z[b]}, std::sqrt(squared)};
-    for (double value : {contact.from[0], contact.from[1], contact.from[2], contact.to[0], contact.to[1],
-                         contact.to[2], contact.force})
-      if (!std::isfinite(value))
-        throw InputError(fmt::format("{}: contact {}: a value is not a finite number", path.string(), i));
-    contacts.push_back(contact);
+      if (array.name == name && !strength) strength = &array;
+  std::vector<ForceLink> links;
+  for (const auto& cell : points.cells) {
+    if (cell.corners.size() != 2) continue;
+    if (!strength)
+      throw InputError(path.string() +
+                       ": no cell array \"normal_force\" or \"force\", the strength of each contact");
+    const auto place = [&](std::size_t i) -> Eigen::Vector3d {
+      return {points.x[i], points.y[i], points.z[i]};
+    };
+    const auto values = static_cast<std::size_t>(strength->components);
+    const Eigen::Map<const Eigen::VectorXd> force(&strength->values[cell.number * values],
+                                                  strength->components);
+    const ForceLink link{place(cell.corners[0]), place(cell.corners[1]), force.norm()};
+    if (!link.from.allFinite() || !link.to.allFinite() || !std::isfinite(link.force))
+      throw InputError(
+          fmt::format("{}: contact {}: a value is not a finite number", path.string(), links.size()));
+    links.push_back(link);
   }
-  return contacts;
+  return links;
 }
 
-std::vector<Contact> read_contacts(const std::filesystem::path& path) {
-  return parse_contacts(read_file(path), path);
+std::vector<ForceLink> read_network(const std::filesystem::path& path) {
+  return parse_network(read_file(path), path);
 }
 
 }  // namespace chute::read
