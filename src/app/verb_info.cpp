@@ -46,7 +46,7 @@ void show_arrays(const char* where, const std::vector<read::PointArray>& arrays,
 
 void show_vtk(const fs::path& path) {
   const auto points = read::parse_vtk(read_file(path), path);
-  fmt::print("{}: {} points, {} lines\n", path.string(), points.x.size(), points.lines.size());
+  fmt::print("{}: {} points, {} lines and polygons\n", path.string(), points.x.size(), points.cells.size());
   fmt::print("  place  x {}   y {}   z {}\n", span_text(points.x), span_text(points.y), span_text(points.z));
   std::string units;
   for (const auto& [name, text] : points.field_texts)

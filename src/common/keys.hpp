@@ -36,8 +36,11 @@ class KeyLister {
   void value(std::string_view key, std::int64_t v, Range range = any_number, Text text = {}) {
     add(key, "whole number", range_text(range), fmt::format("{}", v), text);
   }
+  // Without these two a number with a text but no range would be taken for a bool.
+  void value(std::string_view key, double v, Text text) { value(key, v, any_number, text); }
+  void value(std::string_view key, std::int64_t v, Text text) { value(key, v, any_number, text); }
   void value(std::string_view key, bool v, Text text = {}) {
-    add(key, "bool", "", v ? "true" : "false", text);
+    add(key, "true or false", "", v ? "true" : "false", text);
   }
   void value(std::string_view key, const std::string& v, Text text = {}) { add(key, "text", "", v, text); }
   void value(std::string_view key, const std::vector<double>& v, Range range = any_number, Text text = {}) {
@@ -106,6 +109,8 @@ class KeyLister {
   }
   static std::string range_text(Range range) { return range.describe() == "finite" ? "" : range.describe(); }
   void add(std::string_view key, std::string type, std::string allowed, std::string preset, Text text) {
+    // Where the text says what a missing key means, the value that stands for "missing" would contradict it.
+    if (std::string_view(text.words).find("default") != std::string_view::npos) preset.clear();
     keys_.push_back({path(key), std::move(type), std::move(allowed), std::move(preset), text.words});
   }
 };

@@ -3,7 +3,6 @@ table, comparing pictures."""
 import base64
 import os
 import re
-import resource
 import shutil
 import subprocess
 import sys
