@@ -54,7 +54,8 @@ double beyond_domain(const Eigen::AlignedBox3d& domain, double x);
 /// Reads every frame once, `jobs` at a time. `tell` hears how many are done. InputError as read_frame; also if
 /// the field is missing.
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
-              std::optional<double> radius = {}, int jobs = 1, const std::function<void(std::size_t)>& tell = {});
+              std::optional<double> radius = {}, int jobs = 1,
+              const std::function<void(std::size_t)>& tell = {});
 
 /// Collects frames that are already in memory; what survey() is made of.
 class Surveyor {
