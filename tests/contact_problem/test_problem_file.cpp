@@ -195,7 +195,7 @@ TEST_CASE("wrong texts get one line that names the place") {
   refuse("2\n1\n2\n2\n2\nCSparse\n3-by-3, nzmax: 9 nnz: 1, 1-norm: 1\n", "\"2-by-2,\" must stand here");
   refuse("2\n1\n2\n2\n2\nCSparse\ntriplet: 2-by-2, nzmax: 1 nnz: 1\n 2 0 : 1\n",
          "a row of W must be a whole number");
-  refuse("2\n1\n1\n2\n2\n1\n1\n1\n2\n2\n2\n1\n1 1\n0\n", "where a row of blocks starts");
+  refuse("2\n1\n1\n2\n2\n1\n1\n1\n2\n2\n2\n1\n1 1\n0\n", "the rows of blocks must start at 0");
 }
 
 TEST_CASE("HDF5 files that are wrong") {

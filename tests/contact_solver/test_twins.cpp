@@ -100,7 +100,7 @@ TEST_CASE("a warm start is used, and one that is no use does no harm") {
   const auto problem = scene.problem();
   Team team(1);
   AssembledSystem<2> cold(problem);
-  const auto first = nsgs(cold, goal, team);
+  const auto first = nsgs(cold, {.tolerance = 1e-12, .iterations = 100'000}, team);
   const auto solution = cold.result();
   AssembledSystem<2> warm(problem, solution);
   REQUIRE(nsgs(warm, goal, team).iterations <= 1);

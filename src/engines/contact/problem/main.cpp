@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <string>
 
@@ -91,6 +92,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, as a full disk is
   try {
     app.parse(argc, argv);
+    if (std::isnan(wish.goal.tolerance)) throw InputError("--tolerance: must be a number from 1e-15 to 1");
     std::visit([&](const auto& problem) { work(problem, wish); }, read_problem(wish.file));
     return done;
   } catch (const CLI::Success& asked) {  // --help
