@@ -16,7 +16,7 @@ inline Scene<2> heap(int columns, int rows, double mu, unsigned seed = 1) {
   const double across = std::sqrt(0.75);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column + row < columns; ++column) {
-      if (row > 0 && (at(column, row - 1) < 0 || at(column + 1, row - 1) < 0 || share(dice) > 0.97)) continue;
+      if (row > 0 && (at(column, row - 1) < 0 || at(column + 1, row - 1) < 0 || share(dice) > 0.9)) continue;
       const int i = at(column, row) = scene.body(1, 0.125, {{0.002 + 0.001 * share(dice), -0.01}});
       if (row == 0) {
         scene.touch(i, -1, {{0, 1}}, mu);

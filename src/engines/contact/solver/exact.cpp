@@ -33,7 +33,6 @@ class StateIteration {
 
   ExactSolution<D> run(const Goal& goal) {
     std::set<std::vector<State>> met{states_};
-    std::vector<Guess> way{{states_, directions_}};
     for (long solved = 1;; ++solved) {
       solve();
       auto offenders = find_offenders();
@@ -44,23 +43,20 @@ class StateIteration {
         return solution;
       }
       std::ranges::stable_sort(offenders, std::greater{}, &Offender::by);
-      const Guess before{states_, directions_};
-      const bool is_new = std::ranges::any_of(offenders, [&](const Offender& offender) {
-        restore(before);
+      const bool changed = std::ranges::any_of(offenders, [&](const Offender& offender) {
+        const auto before = states_[offender.contact];
+        const auto direction = directions_[offender.contact];
         change(offender);
-        return met.insert(states_).second;
+        if (met.insert(states_).second) return true;
+        states_[offender.contact] = before;
+        directions_[offender.contact] = direction;
+        return false;
       });
-      if (is_new) {
-        way.push_back({states_, directions_});
-        continue;
-      }
-      way.pop_back();
-      if (way.empty())
+      if (!changed)
         throw WorkError(
-            fmt::format("the states of the contacts came back after {} solutions of (2.33), whichever "
-                        "of those that break Coulomb's law changed",
+            fmt::format("the states of the contacts came back after {} solutions of (2.33): no set of "
+                        "states was found that agrees with Coulomb's law",
                         solved));
-      restore(way.back());
     }
   }
 
@@ -71,10 +67,6 @@ class StateIteration {
     std::size_t contact;
     State to;
   };
-  struct Guess {
-    std::vector<State> states;
-    std::vector<Tangential> directions;
-  };
   const Problem<D>& problem_;
   std::size_t m_;
   std::vector<double> rho_;
@@ -83,10 +75,6 @@ class StateIteration {
   std::vector<Tangential> directions_;  // of a sliding contact's shear impulse, of unit length
   std::vector<Vec<D>> r_, u_;
 
-  void restore(const Guess& guess) {
-    states_ = guess.states;
-    directions_ = guess.directions;
-  }
   static Tangential shear(const Vec<D>& x) {
     Tangential t;
     for (int k = 0; k < D - 1; ++k) t[k] = x[k + 1];

@@ -22,8 +22,7 @@ struct ExactSolution {
 /// impulses and the impulses. In space the directions of slip are found by iteration inside each set of states.
 ///
 /// Sets of states are remembered. Where the worst offender's change leads to one that was met, the next offender
-/// changes; where all do, the search goes back to the set before. WorkError where that leads nowhere, or where the
-/// solution found is none. InputError for too many contacts.
+/// changes; WorkError where all of them do, or where the solution found is none. InputError for too many contacts.
 template <int D>
 ExactSolution<D> exact(const Problem<D>& problem, const Goal& goal);
 
