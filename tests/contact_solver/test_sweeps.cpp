@@ -10,7 +10,7 @@ using namespace chute::contact;
 namespace {
 
 TEST_CASE("contacts of one colour share no body") {
-  auto scene = test::heap(80, 40, 0.4);
+  auto scene = test::heap(150, 40, 0.4);
   REQUIRE(scene.size() > few_contacts);
   const auto order = coloured_by_bodies(scene.a, scene.b, scene.inverse_mass.size());
   REQUIRE_FALSE(order.serial_rest);
@@ -61,7 +61,7 @@ std::vector<double> bytes(test::Scene<D> scene, int threads) {
 }
 
 TEST_CASE("the same bytes with any number of threads") {
-  const auto discs = test::heap(80, 40, 0.4);
+  const auto discs = test::heap(150, 40, 0.4);
   const auto spheres = test::heap_of_spheres(13, 0.4);
   REQUIRE(discs.size() > few_contacts);
   REQUIRE(spheres.size() > few_contacts);

@@ -37,12 +37,12 @@ TEMPLATE_TEST_CASE_SIG("fast and exact agree where the solution is unique", "", 
   CHECK(lost <= problems / 100);
   CHECK(opened > 300);
   CHECK(slid > 300);
-  CHECK(stuck > 30);
+  CHECK(stuck > 10);  // so little friction, which makes the solution unique, holds few
 }
 
 TEST_CASE("fast and exact agree on a pile whose forces are not determined") {
-  // hyperstatic: impulses may differ, what moves may not
-  auto scene = test::heap(5, 4, 0.3);
+  // Hyperstatic: impulses may differ. Without friction what moves may not (a strictly convex problem in u).
+  auto scene = test::heap(5, 4, 0);
   const auto problem = scene.problem();
   const auto slow = exact(problem, {.tolerance = 1e-9, .iterations = 100'000});
   Team team(1);

@@ -186,7 +186,8 @@ void enclose_and_hit(Subject& s) {
     const double t = static_cast<double>(i);
     const Eigen::Vector3d out = Eigen::Vector3d(std::sin(t) - 0.5, std::cos(t) - 0.5, 2).normalized();
     if (s.frame.is_fixed(i))
-      s.impacts.push_back({s.frame.centre(i) + s.frame.radius[i] * out, 0, std::llround(ids->at(i))});
+      s.impacts.push_back({s.frame.centre(i) + s.frame.radius[i] * out, 0,
+                           ids ? std::llround(ids->at(i)) : static_cast<long long>(i)});
   }
 }
 
@@ -269,7 +270,6 @@ std::vector<Golden> frame_goldens() {
                            {"without arrows", [](Subject& s) { s.style.arrows = false; }}}));
   style = small();
   style.color = "material", style.outlines = style.floor = style.box = true;
-  style.camera.zoom = 1.2;
   all.push_back(golden_of("frame-materials", style, "frame-spheres",
                           {{"grains turned by 0.2", turn_grains},
                            {"without outlines", [](Subject& s) { s.style.outlines = false; }},
