@@ -19,23 +19,31 @@ def run(*arguments):
     return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=300)
 
 
-def residual_of_blocks(path, r):
-    """The natural map of a planar file in blocks, from its numbers alone."""
-    words = iter(open(path).read().split())
+def residual_of_planar(path, r):
+    """The natural map of a planar file, W in blocks or dense, from its numbers alone."""
+    with open(path) as file:
+        words = iter(file.read().split())
     integer = lambda: int(next(words))
+    number = lambda: float(next(words))
     assert integer() == 2
     m = integer()
-    assert integer() == 1
-    integer(), integer()
-    blocks = integer()
-    for _ in range(2 + 2 * m + 2):
-        integer()
-    starts = [integer() for _ in range(m + 1)]
-    columns = [integer() for _ in range(blocks)]
-    values = []
-    for _ in range(blocks):
-        integer()
-        values.append([float(next(words)) for _ in range(4)])
+    if integer() == 0:
+        assert [integer() for _ in range(4)] == 4 * [2 * m]
+        dense = [[number() for _ in range(2 * m)] for _ in range(2 * m)]  # row by row
+        starts, columns = [m * i for i in range(m + 1)], [k for _ in range(m) for k in range(m)]
+        values = [[dense[2 * i][2 * k], dense[2 * i + 1][2 * k], dense[2 * i][2 * k + 1], dense[2 * i + 1][2 * k + 1]]
+                  for i in range(m) for k in range(m)]
+    else:
+        integer(), integer()
+        blocks = integer()
+        for _ in range(2 + 2 * m + 2):
+            integer()
+        starts = [integer() for _ in range(m + 1)]
+        columns = [integer() for _ in range(blocks)]
+        values = []
+        for _ in range(blocks):
+            integer()
+            values.append([number() for _ in range(4)])
     q = [float(next(words)) for _ in range(2 * m)]
     mu = [float(next(words)) for _ in range(m)]
     above = below = 0
@@ -131,7 +139,7 @@ class Program(unittest.TestCase):
             residual, r = self.solve(os.path.join(fclib, name), "--tolerance", "1e-8")
             self.assertLessEqual(residual, 1e-8, name)
             if re.fullmatch(r"FrictionContactProblem\d+\.dat", name):
-                self.assertLess(residual_of_blocks(os.path.join(fclib, name), r), 1.01e-8, name)
+                self.assertLess(residual_of_planar(os.path.join(fclib, name), r), 1.01e-8, name)
 
 
 unittest.main(argv=sys.argv[:1])
