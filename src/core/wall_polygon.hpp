@@ -19,7 +19,7 @@ struct Polygon {
     Vec<3> nearest{};
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vec<3> &a = corners[k], edge = corners[(k + 1) % corners.size()] - a;
+      const Vec<3>&a = corners[k], edge = corners[(k + 1) % corners.size()] - a;
       inside = inside && dot(cross(edge, foot - a), normal) >= 0;
       const Vec<3> on_edge = a + std::clamp(dot(foot - a, edge) / dot(edge, edge), 0.0, 1.0) * edge;
       if (const double far = norm(foot - on_edge); far < least) least = far, nearest = on_edge;

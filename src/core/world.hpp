@@ -20,7 +20,9 @@ struct Surroundings {
   double floor = -std::numeric_limits<double>::infinity();  ///< a grain below (last coordinate) is lost
   Frame frame;
 
-  Vec<D> gravity_at(double t) const { return tilt ? gravity_on_incline<D>(tilt->gravity, tilt->angle(t)) : gravity; }
+  Vec<D> gravity_at(double t) const {
+    return tilt ? gravity_on_incline<D>(tilt->gravity, tilt->angle(t)) : gravity;
+  }
   const Surroundings& surroundings() const { return *this; }
 };
 

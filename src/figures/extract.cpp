@@ -24,7 +24,8 @@ class Impacts {
   explicit Impacts(const fs::path& run)
       : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {
     // Velocities along the line and towards it, (4.4) and (4.5) solved for v_x and v_z
-    const auto &gamma = column(fields::gamma.name), &v_n = column(fields::v_n.name), &v_t = column(fields::v_t.name);
+    const auto &gamma = column(fields::gamma.name), &v_n = column(fields::v_n.name),
+               &v_t = column(fields::v_t.name);
     read::PointArray v_x{"v_x", 1, {}}, v_z{"v_z", 1, {}};
     for (std::size_t i = 0; i < gamma.size(); ++i) {
       v_x.values.push_back(v_n[i] * std::sin(gamma[i]) + v_t[i] * std::cos(gamma[i]));
@@ -59,7 +60,8 @@ std::vector<double> joined(const Curve& curve, std::span<const fs::path> runs) {
   for (const auto& run : runs) {
     const Impacts impacts(run);
     for (const double v : impacts.column(curve.column))
-      if (std::isfinite(v)) values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));  // else unknown
+      if (std::isfinite(v))
+        values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));  // else unknown
   }
   return values;
 }

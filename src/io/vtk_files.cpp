@@ -67,12 +67,15 @@ void add_vertices(vtkPolyData* data, std::size_t count, Place&& place) {
   data->SetVerts(vertices);
 }
 
-std::string bytes(vtkPolyData* data) {
+std::string bytes(vtkPolyData* data, Packing packing = Packing::compressed) {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  if (packing == Packing::compressed)
+    writer->SetCompressorTypeToZLib();
+  else
+    writer->SetCompressorTypeToNone();
   writer->SetWriteToOutputString(true);
   if (!writer->Write()) throw WorkError("VTK could not encode a file: out of memory?");
   return writer->GetOutputString();
@@ -95,7 +98,7 @@ void add_field(vtkDataSetAttributes* to, const FieldView& field, std::size_t cou
 
 }  // namespace
 
-std::string grains_vtp(const GrainsView& grains, const RunFacts& facts) {
+std::string grains_vtp(const GrainsView& grains, const RunFacts& facts, Packing packing) {
   vtkNew<vtkPolyData> data;
   const std::size_t n = grains.size();
   add_vertices(data, n, [&](std::size_t i) { return grains.place(i); });
@@ -110,7 +113,7 @@ std::string grains_vtp(const GrainsView& grains, const RunFacts& facts) {
   });
   add_numbers(data, fields::time_value, std::array{grains.time});
   add_facts(data, facts);
-  return bytes(data);
+  return bytes(data, packing);
 }
 
 std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts) {
@@ -163,8 +166,10 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
       return (contacts[i].*member)[static_cast<std::size_t>(k)];
     });
   };
-  add_array<vtkLongLongArray>(to, fields::contact_a.name, n, 1, [&](std::size_t i, int) { return contacts[i].a; });
-  add_array<vtkLongLongArray>(to, fields::contact_b.name, n, 1, [&](std::size_t i, int) { return contacts[i].b; });
+  add_array<vtkLongLongArray>(to, fields::contact_a.name, n, 1,
+                              [&](std::size_t i, int) { return contacts[i].a; });
+  add_array<vtkLongLongArray>(to, fields::contact_b.name, n, 1,
+                              [&](std::size_t i, int) { return contacts[i].b; });
   vector(fields::point, &Contact::point);
   vector(fields::normal, &Contact::normal);
   vector(fields::branch, &Contact::branch);

@@ -15,7 +15,7 @@ namespace chute::io {
 
 /// What every file says about its run.
 struct RunFacts {
-  std::string units;               ///< "SI" or "reduced"
+  std::string units;  ///< "SI" or "reduced"
   int dimensions = 2;
   std::array<double, 6> domain{};  ///< x0 x1 y0 y1 z0 z1; equal ends where it is not periodic
   std::array<double, 3> gravity{};
@@ -46,7 +46,8 @@ RunFacts facts_of(const World<D>& world, std::string units) {
   for (const auto& wall : world.walls) {  // planes show even where no grain is near
     if (wall.bounded() || wall.cylinder()) continue;
     Vec<D> middle;
-    for (int k = 0; k < D; ++k) middle[k] = (room[static_cast<std::size_t>(2 * k)] + room[static_cast<std::size_t>(2 * k + 1)]) / 2;
+    for (int k = 0; k < D; ++k)
+      middle[k] = (room[static_cast<std::size_t>(2 * k)] + room[static_cast<std::size_t>(2 * k + 1)]) / 2;
     const Vec<D> foot = middle - wall.height(middle) * wall.normal;
     for (int k = 0; k < D; ++k) {
       auto &low = room[static_cast<std::size_t>(2 * k)], &high = room[static_cast<std::size_t>(2 * k + 1)];
@@ -54,12 +55,17 @@ RunFacts facts_of(const World<D>& world, std::string units) {
     }
   }
   for (std::size_t w = 0; w < world.walls.size(); ++w)
-    for (auto& face : faces_of(world.walls[w], static_cast<int>(w), room)) facts.walls.push_back(std::move(face));
+    for (auto& face : faces_of(world.walls[w], static_cast<int>(w), room))
+      facts.walls.push_back(std::move(face));
   return facts;
 }
 
+/// Files are compressed; checkpoints, which are written often and read rarely, need not be.
+enum class Packing { compressed, plain };
+
 /// All grains as vertices, with the fields that core/grains.hpp declares. 2D grains lie at z = 0 and spin about z.
-std::string grains_vtp(const GrainsView& grains, const RunFacts& facts);
+std::string grains_vtp(const GrainsView& grains, const RunFacts& facts,
+                       Packing packing = Packing::compressed);
 
 /// One vertex per impact, where the surfaces met.
 std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts);

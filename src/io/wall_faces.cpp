@@ -38,7 +38,8 @@ struct Box {
   double size = 1;  ///< at least the way from the middle to a corner
   explicit Box(const Room& room) {
     for (int k = 0; k < 3; ++k) {
-      const double low = room[static_cast<std::size_t>(2 * k)], high = room[static_cast<std::size_t>(2 * k + 1)];
+      const double low = room[static_cast<std::size_t>(2 * k)],
+                   high = room[static_cast<std::size_t>(2 * k + 1)];
       size += high - low;
       middle[k] = (low + high) / 2;
     }
@@ -111,7 +112,8 @@ std::vector<WallFace> faces_of(const Wall<D>& wall, int number, const Room& room
   if (!wall.bounded())
     face.corners = plane(point, in_space(as_file_vector(wall.normal)), D, room);
   else if constexpr (D == 2)
-    face.corners = {as_file_vector(wall.point - wall.bounded()->half), as_file_vector(wall.point + wall.bounded()->half)};
+    face.corners = {as_file_vector(wall.point - wall.bounded()->half),
+                    as_file_vector(wall.point + wall.bounded()->half)};
   else
     for (const auto& c : wall.bounded()->corners) face.corners.push_back((wall.point + c).c);
   if (face.corners.size() < 2) faces.clear();

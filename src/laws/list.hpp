@@ -125,7 +125,8 @@ inline bool set_restitution(NormalKeys& normal, double e_n) {
           keys.restitution = e_n;
           if constexpr (requires { keys.damping; }) keys.damping.reset();
           if constexpr (requires { keys.relaxation; }) keys.relaxation.reset();
-          if constexpr (requires { keys.unloading_stiffness; }) keys.unloading_stiffness.reset(), keys.hardening.reset();
+          if constexpr (requires { keys.unloading_stiffness; })
+            keys.unloading_stiffness.reset(), keys.hardening.reset();
           return true;
         } else {
           return false;

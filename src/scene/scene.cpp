@@ -19,7 +19,8 @@ template <class Archive>
 static void describe_angle(Archive& a, const char* key, std::string& angle, const char* text) {
   a.required(key, angle, text);
   if constexpr (Archive::reading)
-    a.check(parse_angle(angle).has_value(), key, fmt::format("\"{}\" is not an angle, write \"18 deg\" or \"0.3 rad\"", angle));
+    a.check(parse_angle(angle).has_value(), key,
+            fmt::format("\"{}\" is not an angle, write \"18 deg\" or \"0.3 rad\"", angle));
 }
 
 template <class Archive>
@@ -31,7 +32,8 @@ static void describe(Archive& a, Tilting& tilting) {
     for (const auto& [key, angle] : {std::pair("from", &tilting.from), std::pair("to", &tilting.to)})
       a.check(std::abs(*parse_angle(*angle)) <= std::numbers::pi / 2, key,
               fmt::format("\"{}\" is not allowed, must be between -90 deg and 90 deg", *angle));
-    a.check(*parse_angle(tilting.rate) > 0, "rate", fmt::format("\"{}\" is not allowed, must be > 0", tilting.rate));
+    a.check(*parse_angle(tilting.rate) > 0, "rate",
+            fmt::format("\"{}\" is not allowed, must be > 0", tilting.rate));
   }
 }
 
@@ -42,7 +44,8 @@ static void describe(Archive& a, Incline& incline) {
   if (table)
     a.section("angle", incline.tilting);
   else
-    a.value("angle", incline.angle, "inclination, \"18 deg\" or \"0.3 rad\"; or { from, to, rate } of one that is tilted");
+    a.value("angle", incline.angle,
+            "inclination, \"18 deg\" or \"0.3 rad\"; or { from, to, rate } of one that is tilted");
   a.value("sin", incline.sine, between(-1, 1), "its sine instead");
   a.value("gravity", incline.gravity, non_negative, "g; default 9.81 m/s² in SI, 1 in reduced units");
   if constexpr (Archive::reading) {
@@ -60,7 +63,8 @@ static void describe(Archive& a, Incline& incline) {
 
 template <class Archive>
 static void describe(Archive& a, DomainSpec& domain) {
-  a.value("periodic", domain.periodic, "directions that repeat, of \"x\", \"y\", \"z\"; default all along the bed");
+  a.value("periodic", domain.periodic,
+          "directions that repeat, of \"x\", \"y\", \"z\"; default all along the bed");
   a.value("size", domain.size, positive, "lengths along x, y, z, where the bed does not say them");
 }
 
@@ -100,8 +104,10 @@ static void describe(Archive& a, GrainsSpec& grains) {
     a.section("diameter", grains.diameter);
     a.value("size_ratio", grains.size_ratio, positive, "R/r, instead of a diameter");
   }
-  a.value("density", grains.density, positive, "of the grains, spheres in 2D too; default 6/π in reduced units: m = d³");
-  a.value("independent", grains.independent, "grains do not feel each other: many starts of one, side by side");
+  a.value("density", grains.density, positive,
+          "of the grains, spheres in 2D too; default 6/π in reduced units: m = d³");
+  a.value("independent", grains.independent,
+          "grains do not feel each other: many starts of one, side by side");
   a.value("rotation", grains.rotation, "false: grains never spin, as if friction acted at their centres");
   if constexpr (Archive::reading)
     a.check(brought || grains.diameter.has_value() != grains.size_ratio.has_value(),
@@ -139,7 +145,8 @@ static void describe(Archive& a, Run& run) {
 
 static measure::Scales scales_of(const Scene& scene) {
   const double d = scene.bed->diameter, g = scene.incline.gravity;
-  return {scene.duration, d, g > 0 ? std::sqrt(g * d) : 1, g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4};
+  return {scene.duration, d, g > 0 ? std::sqrt(g * d) : 1,
+          g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4};
 }
 
 Scene::Scene() : bed(beds::list().front()), engine(engines::list().front()) {
@@ -169,7 +176,8 @@ static void describe(Archive& a, Scene& scene) {
     if (!scene.si()) scene.grains.density = 6 / std::numbers::pi;
   }
   a.required_section("incline", scene.incline);
-  if (Archive::reading || scene.domain.periodic || scene.domain.size) a.section("domain", scene.domain);
+  if (!std::same_as<Archive, TomlWriter> || scene.domain.periodic || scene.domain.size)
+    a.section("domain", scene.domain);
   BedTable bed{scene.bed};
   a.required_section("bed", bed);
   a.sections("wall", scene.walls);
@@ -196,7 +204,9 @@ Tilt Tilting::tilt(double gravity) const {
   return {parse_angle(from).value(), parse_angle(to).value(), parse_angle(rate).value(), gravity};
 }
 
-double Incline::theta() const { return tilting ? tilting->tilt(gravity).from : sine ? std::asin(*sine) : parse_angle(*angle).value(); }
+double Incline::theta() const {
+  return tilting ? tilting->tilt(gravity).from : sine ? std::asin(*sine) : parse_angle(*angle).value();
+}
 
 /// Refuses runs of more steps than can be counted.
 static void check_step_count(const Scene& scene, const engines::Setting& setting, const TomlReader& reader) {
@@ -235,6 +245,21 @@ std::string to_toml(const Scene& scene) {
   Scene copy = scene;
   describe(writer, copy);
   return writer.text();
+}
+
+std::vector<KeyText> plain_keys() {
+  KeyLister lister;
+  Scene scene;
+  scene.incline.angle = "18 deg";
+  describe(lister, scene);
+  std::vector<KeyText> keys;
+  for (const auto& key : lister.keys()) {
+    const auto in = [&](const char* table) { return key.key.starts_with(table); };
+    const bool told_elsewhere = in("bed.") || in("grains.start.") || in("engine.") || in("contact.") ||
+                                (in("output.") && key.key != "output.checkpoint");
+    if (!told_elsewhere) keys.push_back(key);
+  }
+  return keys;
 }
 
 }  // namespace chute::scene

@@ -58,27 +58,33 @@ std::optional<Refusal> misfit(const WallSpec& w, const std::string& path, int di
   const auto n = static_cast<std::size_t>(dimensions);
   const int shapes = w.is_plane() + w.is_segment() + w.corners.has_value() + w.radius.has_value();
   if (shapes != 1)
-    return refuse("", std::string(shapes ? "is several things at once" : "lacks its shape") +
-                          ", give one: a plane (point, normal), a segment (from, to), a polygon (corners) or a cylinder "
-                          "(radius, with point and axis)");
+    return refuse(
+        "",
+        std::string(shapes ? "is several things at once" : "lacks its shape") +
+            ", give one: a plane (point, normal), a segment (from, to), a polygon (corners) or a cylinder "
+            "(radius, with point and axis)");
   struct Named {
     const char* key;
     const std::optional<Place>& place;
   };
-  for (const auto& [key, place] : {Named{"point", w.point}, Named{"normal", w.normal}, Named{"from", w.from}, Named{"to", w.to},
-                                   Named{"axis", w.axis}, Named{"velocity", w.velocity}})
-    if (place && place->size() != n) return refuse(key, fmt::format("has {} numbers, needed {}", place->size(), n));
+  for (const auto& [key, place] : {Named{"point", w.point}, Named{"normal", w.normal}, Named{"from", w.from},
+                                   Named{"to", w.to}, Named{"axis", w.axis}, Named{"velocity", w.velocity}})
+    if (place && place->size() != n)
+      return refuse(key, fmt::format("has {} numbers, needed {}", place->size(), n));
   if (w.is_plane() && !w.point) return refuse("point", "missing: where is the plane?");
   if (w.is_plane() && !(length(*w.normal) > 0)) return refuse("normal", "has no direction, must not be 0");
   if (w.point && !w.is_plane() && !w.radius) return refuse("point", "belongs to planes and cylinders");
-  if (w.is_segment() && dimensions == 3) return refuse("from", "a segment is a wall in 2D; in 3D give corners");
-  if (w.is_segment() && !(w.from && w.to)) return refuse(w.from ? "to" : "from", "missing: a segment has two ends");
+  if (w.is_segment() && dimensions == 3)
+    return refuse("from", "a segment is a wall in 2D; in 3D give corners");
+  if (w.is_segment() && !(w.from && w.to))
+    return refuse(w.from ? "to" : "from", "missing: a segment has two ends");
   if (w.is_segment() && *w.from == *w.to) return refuse("to", "is the same place as from");
   if (w.corners) {
     if (dimensions == 2) return refuse("corners", "a polygon is a wall in 3D; in 2D give from and to");
     if (w.corners->size() < 3) return refuse("corners", "at least three are needed");
     for (const auto& c : *w.corners)
-      if (c.size() != n) return refuse("corners", fmt::format("a corner has {} numbers, needed {}", c.size(), n));
+      if (c.size() != n)
+        return refuse("corners", fmt::format("a corner has {} numbers, needed {}", c.size(), n));
     if (!is_flat_and_convex(*w.corners)) return refuse("corners", "must go round a flat convex polygon");
   }
   if (w.axis && (!w.radius || dimensions == 2)) return refuse("axis", "belongs to cylinders in 3D");
@@ -96,7 +102,8 @@ Wall<D> make_wall(const WallSpec& spec) {
   wall.surface = spec.surface;
   if (spec.normal) wall.normal = unit<D>(*spec.normal);
   if (spec.radius)
-    wall.outline = Cylinder<D>{spec.axis ? unit<D>(*spec.axis) : Vec<D>{}, *spec.radius, spec.spin.value_or(0)};
+    wall.outline =
+        Cylinder<D>{spec.axis ? unit<D>(*spec.axis) : Vec<D>{}, *spec.radius, spec.spin.value_or(0)};
   if constexpr (D == 2) {
     if (spec.is_segment()) {
       const Vec<2> from = vec<2>(*spec.from), to = vec<2>(*spec.to), half = 0.5 * (to - from);

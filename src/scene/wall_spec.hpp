@@ -42,10 +42,12 @@ void describe(Archive& a, WallSpec& wall) {
   a.value("radius", wall.radius, positive, "of a cylinder with the grains inside; in 2D a circle");
   a.value("axis", wall.axis, any_number, "direction of a cylinder's axis (3D)");
   a.value("spin", wall.spin, any_number, "of a cylinder about its axis, anticlockwise");
-  a.value("friction", wall.surface.friction, non_negative, "μ of contacts with it; default as between grains");
+  a.value("friction", wall.surface.friction, non_negative,
+          "μ of contacts with it; default as between grains");
   a.value("static_friction", wall.surface.static_friction, non_negative, "μ_s of contacts at rest with it");
   a.value("restitution", wall.surface.restitution, unit_interval, "e_n of contacts with it");
-  a.value("tangential_restitution", wall.surface.tangential_restitution, between(-1, 1), "β of contacts with it");
+  a.value("tangential_restitution", wall.surface.tangential_restitution, between(-1, 1),
+          "β of contacts with it");
   a.value("velocity", wall.velocity, any_number, "with which it moves steadily");
   a.section("oscillation", wall.oscillation);
 }

@@ -68,7 +68,8 @@ TEST_CASE("a ball is thrown back by a wall that comes towards it, with twice its
 
 TEST_CASE("rough grains in a drum that turns, with a paddle that shakes, keep their account") {
   Grains<2> grains;
-  for (int k = 0; k < 9; ++k) add_ball<2>(grains, {{1.2 * (k % 3 - 1), 1.2 * (k / 3) - 1}}, {{0.3 * (k % 2), -0.2}}, 0.5, 1, true);
+  for (int k = 0; k < 9; ++k)
+    add_ball<2>(grains, {{1.2 * (k % 3 - 1), 1.2 * (k / 3) - 1}}, {{0.3 * (k % 2), -0.2}}, 0.5, 1, true);
   EventSetup<2> setup;
   setup.contact = {laws::ConstantRestitution{0.8}, {.friction = 0.4, .beta = 0.2}};
   setup.contact_time = 1e-3;

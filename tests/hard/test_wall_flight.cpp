@@ -21,8 +21,11 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The first time at which the height above touching falls to 0, by looking very often.
 template <int D>
-double by_looking(const Flight<D>& flight, const Wall<D>& wall, const Domain<D>& domain, double until, int looks) {
-  const auto height = [&](double t) { return wall.nearest(flight.place_at(t), t, domain).height - flight.radius; };
+double by_looking(const Flight<D>& flight, const Wall<D>& wall, const Domain<D>& domain, double until,
+                  int looks) {
+  const auto height = [&](double t) {
+    return wall.nearest(flight.place_at(t), t, domain).height - flight.radius;
+  };
   for (int k = 1; k <= looks; ++k) {
     double low = until * (k - 1) / looks, high = until * k / looks;
     if (!(height(high) <= 0)) continue;
@@ -52,7 +55,8 @@ TEST_CASE("a grain that falls meets a plane, a segment's middle and its end when
   CHECK(first_contact_with_wall(falls, plane, open, t - 1e-6) == never);
   CHECK(first_contact_with_wall(falls, segment({{-1, 0}}, {{1, 0}}), open) == Approx(t).epsilon(1e-12));
   // 0.3 beside the end: the centre is √(0.5² − 0.3²) = 0.4 above it
-  CHECK(first_contact_with_wall(falls, segment({{0.3, 0}}, {{5, 0}}), open) == Approx(2 + std::sqrt(2 * 2.6)).epsilon(1e-12));
+  CHECK(first_contact_with_wall(falls, segment({{0.3, 0}}, {{5, 0}}), open) ==
+        Approx(2 + std::sqrt(2 * 2.6)).epsilon(1e-12));
   CHECK(first_contact_with_wall(falls, segment({{0.6, 0}}, {{5, 0}}), open, 1e6) == never);
 }
 
@@ -74,14 +78,20 @@ TEST_CASE("whatever the shape and however it moves, the first contact is that of
     Flight<2> flight = flying<2>({{u(1.5), u(1.5)}}, {{u(3), u(3)}}, {{u(1), u(1)}}, 0, 0.3);
     Wall<2> wall;
     switch (k % 3) {
-      case 0: wall.outline = Cylinder<2>{{}, 3, 0}; break;
-      case 1: wall = segment({{u(2), -2.5}}, {{u(2), -4}}); break;
-      default: wall = Wall<2>{{{0, -3}}, {{0.6, 0.8}}};
+      case 0:
+        wall.outline = Cylinder<2>{{}, 3, 0};
+        break;
+      case 1:
+        wall = segment({{u(2), -2.5}}, {{u(2), -4}});
+        break;
+      default:
+        wall = Wall<2>{{{0, -3}}, {{0.6, 0.8}}};
     }
     if (k % 2) wall.motion.velocity = {{u(0.5), u(0.5)}};
     if (k % 3 != 0 && k % 4 > 1) wall.motion.amplitude = 0.3, wall.motion.frequency = 0.8;
     const Domain<2>& domain = k % 3 == 1 ? periodic : open;
-    const double expected = by_looking(flight, wall, domain, 5, 40000), found = first_contact_with_wall(flight, wall, domain, 5);
+    const double expected = by_looking(flight, wall, domain, 5, 40000),
+                 found = first_contact_with_wall(flight, wall, domain, 5);
     CAPTURE(k, expected, found);
     ++(expected == never ? missed : met);
     if (expected == never) {
@@ -103,7 +113,8 @@ TEST_CASE("in space, faces, edges and corners of a polygon are met as a dumb sea
     Random random(4, Purpose::engine, k);
     const auto u = [&](double a) { return random.uniform(-a, a); };
     const Flight<3> flight = flying<3>({{u(2), u(2), 2}}, {{u(1), u(1), -1}}, {{0, 0, -0.5}}, 0, 0.4);
-    const double expected = by_looking<3>(flight, plate, {}, 4, 40000), found = first_contact_with_wall(flight, plate, {}, 4);
+    const double expected = by_looking<3>(flight, plate, {}, 4, 40000),
+                 found = first_contact_with_wall(flight, plate, {}, 4);
     CAPTURE(k);
     met += expected < never;
     if (expected == never) {

@@ -9,8 +9,8 @@ namespace chute::test {
 
 /// A solid sphere of unit diameter and mass, I = 2/5 m R².
 template <int D>
-void add_ball(Grains<D>& grains, const Vec<D>& place, const Vec<D>& velocity, bool moves = true, double radius = 0.5,
-              double mass = 1) {
+void add_ball(Grains<D>& grains, const Vec<D>& place, const Vec<D>& velocity, bool moves = true,
+              double radius = 0.5, double mass = 1) {
   grains.add(place, radius, mass, 0.4 * mass * radius * radius, moves);
   for (int k = 0; k < D; ++k) grains.velocity[static_cast<std::size_t>(k)].back() = velocity[k];
 }

@@ -72,26 +72,35 @@ TEST_CASE("a bad wall gets one line with file, line and key") {
   for (const auto& [wall, message] : std::vector<std::pair<std::string, std::string>>{
            {"friction = 0.1", "walls.toml:25: wall[0]: lacks its shape, give one: a plane (point, normal)"},
            {"normal = [0, 1]", "wall[0].point: missing: where is the plane?"},
-           {"point = [0, 0]\nnormal = [0, 0]", "walls.toml:27: wall[0].normal: has no direction, must not be 0"},
-           {"point = [0, 0]\nnormal = [0, 1]\nfrom = [0, 0]\nto = [1, 0]", "wall[0]: is several things at once"},
+           {"point = [0, 0]\nnormal = [0, 0]",
+            "walls.toml:27: wall[0].normal: has no direction, must not be 0"},
+           {"point = [0, 0]\nnormal = [0, 1]\nfrom = [0, 0]\nto = [1, 0]",
+            "wall[0]: is several things at once"},
            {"point = [0, 0]\nfrom = [0, 0]\nto = [1, 0]", "wall[0].point: belongs to planes and cylinders"},
            {"from = [0, 0]", "wall[0].to: missing: a segment has two ends"},
            {"from = [0, 0]\nto = [0, 0]", "wall[0].to: is the same place as from"},
            {"point = [0, 0, 0]\nnormal = [0, 1]", "wall[0].point: has 3 numbers, needed 2"},
            {"corners = [[0, 0], [1, 0], [1, 1]]", "wall[0].corners: a polygon is a wall in 3D"},
            {"radius = 3\naxis = [0, 1]", "wall[0].axis: belongs to cylinders in 3D"},
-           {"point = [0, 0]\nnormal = [0, 1]\nspin = 1", "wall[0].spin: only a cylinder can turn in its place"},
-           {"radius = 3\noscillation = { amplitude = 1, frequency = 1 }", "wall[0].oscillation: a cylinder has no normal"},
+           {"point = [0, 0]\nnormal = [0, 1]\nspin = 1",
+            "wall[0].spin: only a cylinder can turn in its place"},
+           {"radius = 3\noscillation = { amplitude = 1, frequency = 1 }",
+            "wall[0].oscillation: a cylinder has no normal"},
            {"point = [0, 0]\nnormall = [0, 1]", "wall[0].normall: unknown key, did you mean normal?"},
-           {"point = [0, 0]\nnormal = [0, 1]\nstatic_friction = 1", "wall[0].static_friction: engine.method = \"soft\" knows one friction only"},
-           {"point = [0, 0]\nnormal = [0, 1]\ntangential_restitution = 1", "wall[0].tangential_restitution: engine.method = \"soft\" knows no"},
-           {"point = [0, 0]\nnormal = [0, 1]\nrestitution = 0", "wall[0].restitution: 0 is not allowed for soft grains"}})
+           {"point = [0, 0]\nnormal = [0, 1]\nstatic_friction = 1",
+            "wall[0].static_friction: engine.method = \"soft\" knows one friction only"},
+           {"point = [0, 0]\nnormal = [0, 1]\ntangential_restitution = 1",
+            "wall[0].tangential_restitution: engine.method = \"soft\" knows no"},
+           {"point = [0, 0]\nnormal = [0, 1]\nrestitution = 0",
+            "wall[0].restitution: 0 is not allowed for soft grains"}})
     CHECK_THAT(refused(wall), Catch::Contains(message));
   const std::string plane = "point = [0, 0]\nnormal = [0, 1]";
-  CHECK_THAT(refused(plane, {"engine.method=stochastic"}), Catch::Contains("engine.method = \"stochastic\" knows no walls"));
+  CHECK_THAT(refused(plane, {"engine.method=stochastic"}),
+             Catch::Contains("engine.method = \"stochastic\" knows no walls"));
   CHECK_THAT(refused(plane + "\nfriction = 0.1", {"contact.tangential={law=\"frictionless\"}"}),
              Catch::Contains("wall[0].friction: the law of [contact.tangential] has no friction"));
-  CHECK_THAT(refused("from = [0, 0]\nto = [9, 0]", {"domain.periodic=[\"x\"]"}), Catch::Contains("is 9 long: with a grain it does not fit"));
+  CHECK_THAT(refused("from = [0, 0]\nto = [9, 0]", {"domain.periodic=[\"x\"]"}),
+             Catch::Contains("is 9 long: with a grain it does not fit"));
   CHECK_THAT(refused("corners = [[0, 0, 0], [4, 0, 0], [1, 1, 0], [0, 4, 0]]", {"dimensions=3"}),
              Catch::Contains("wall[0].corners: must go round a flat convex polygon"));
 }
@@ -112,7 +121,10 @@ TEST_CASE("an incline tilts in time, if the method can") {
     }
     return std::string("nothing");
   };
-  CHECK_THAT(wrong("engine.method", "event"), Catch::Contains("incline.angle: engine.method = \"event\" keeps the incline where it is"));
-  CHECK_THAT(wrong("incline.angle.rate", "\"0 deg\""), Catch::Contains("incline.angle.rate: \"0 deg\" is not allowed, must be > 0"));
-  CHECK_THAT(wrong("incline.angle.to", "\"steep\""), Catch::Contains("incline.angle.to: \"steep\" is not an angle"));
+  CHECK_THAT(wrong("engine.method", "event"),
+             Catch::Contains("incline.angle: engine.method = \"event\" keeps the incline where it is"));
+  CHECK_THAT(wrong("incline.angle.rate", "\"0 deg\""),
+             Catch::Contains("incline.angle.rate: \"0 deg\" is not allowed, must be > 0"));
+  CHECK_THAT(wrong("incline.angle.to", "\"steep\""),
+             Catch::Contains("incline.angle.to: \"steep\" is not an angle"));
 }

@@ -12,7 +12,8 @@ namespace {
 constexpr double stiffness = 1e5, e_n = 0.6, dt = 1e-4;
 
 laws::ContactLaws contact(double friction, double restitution = e_n) {
-  return {laws::SpringDashpot::from_restitution(stiffness, restitution, true), laws::RegularisedCoulomb{300, friction, laws::MassScaling::none}};
+  return {laws::SpringDashpot::from_restitution(stiffness, restitution, true),
+          laws::RegularisedCoulomb{300, friction, laws::MassScaling::none}};
 }
 
 template <int D>
@@ -33,7 +34,8 @@ Wall<2> segment(Vec<2> from, Vec<2> to) {
 
 }  // namespace
 
-TEST_CASE("a column between two side walls weighs on the floor what it weighs, on a plane, a segment, and in space a plate") {
+TEST_CASE(
+    "a column between two side walls weighs on the floor what it weighs, on a plane, a segment, and in space a plate") {
   const auto load = [](auto setup, auto floor, double side) {
     constexpr int D = std::tuple_size_v<decltype(setup.gravity.c)>;
     Grains<D> grains;
@@ -127,7 +129,8 @@ TEST_CASE("a wall has its own restitution and friction") {
   SoftEngine<2> engine(grains, setup);
   engine.advance_to(5000);
   CHECK(engine.state().velocity[1][0] == Approx(0.9).epsilon(1e-3));
-  CHECK(engine.state().velocity[0][0] == Approx(3 - 0.1 * 1.9).epsilon(2e-3));  // it slides: Δv_s = μ (1 + e_n) v_n
+  CHECK(engine.state().velocity[0][0] ==
+        Approx(3 - 0.1 * 1.9).epsilon(2e-3));  // it slides: Δv_s = μ (1 + e_n) v_n
 }
 
 TEST_CASE("a grain on a smooth plane that tilts follows gravity, which does the work that it has") {

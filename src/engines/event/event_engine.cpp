@@ -84,7 +84,8 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
   lay_out();
   for (std::size_t i = 0; i < moving; ++i)
     for (const auto& wall : setup_.walls)
-      if (const double height = wall.nearest(flights_[i].place, 0, setup_.domain).height; height < flights_[i].radius * (1 - touching))
+      if (const double height = wall.nearest(flights_[i].place, 0, setup_.domain).height;
+          height < flights_[i].radius * (1 - touching))
         throw WorkError(fmt::format("grain {} overlaps a wall by {:.3g} at the start; hard grains cannot", i,
                                     flights_[i].radius - height));
   for (std::size_t i = 0; i < moving; ++i)
@@ -145,7 +146,8 @@ void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* cros
       first = {t, j, flights_[j].collisions};
   }
   for (std::size_t w = 0; !crossed && w < setup_.walls.size(); ++w)
-    if (const double t = contact_with_wall(i, w, first.time); t < first.time) first = {t, grains_.size() + w, 0};
+    if (const double t = contact_with_wall(i, w, first.time); t < first.time)
+      first = {t, grains_.size() + w, 0};
   plan(i);
 }
 
@@ -243,7 +245,8 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   note_touch(i, j, n, train);
   laws::Collider<D> a = collider(i, n), b = collider(j, n);
   const Vec<D> surface = b.velocity;
-  const auto done = exchange(n, is_wall(j) ? setup_.contact.with(wall_of(j).surface) : setup_.contact, train, a, b);
+  const auto done =
+      exchange(n, is_wall(j) ? setup_.contact.with(wall_of(j).surface) : setup_.contact, train, a, b);
   if (is_wall(j)) account_.wall_work -= dot(done.impulse, surface);
   meetings_.note(i, j, now_, as_file_vector(done.impulse));
   if (collecting_collisions_) collisions_.push_back({told(i, j, flights_[i].place, way, done.impulse), now_});

@@ -5,9 +5,9 @@
 #include "core/engine.hpp"
 #include "core/world.hpp"
 #include "engines/event/cells.hpp"
-#include "engines/hard/meetings.hpp"
 #include "engines/event/event_queue.hpp"
 #include "engines/hard/hard_contact.hpp"
+#include "engines/hard/meetings.hpp"
 
 namespace chute::event {
 
@@ -122,7 +122,8 @@ class EventEngine final : public Engine {
   bool is_wall(std::size_t partner) const { return partner >= grains_.size(); }
   const Wall<D>& wall_of(std::size_t partner) const { return setup_.walls[partner - grains_.size()]; }
   Vec<D> way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to, double t) const;
-  Contact told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way, const Vec<D>& force) const;
+  Contact told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way,
+               const Vec<D>& force) const;
   void look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely);
   void plan(std::size_t i);
   void lay_out();
@@ -131,8 +132,8 @@ class EventEngine final : public Engine {
   void check_collapse(std::size_t i);
   void show();
   laws::Collider<D> collider(std::size_t i, const Vec<D>& n) const;
-  laws::Collision<D> exchange(const Vec<D>& n, const HardContact& contact, const Meeting* train, laws::Collider<D>& a,
-                              laws::Collider<D>& b);
+  laws::Collision<D> exchange(const Vec<D>& n, const HardContact& contact, const Meeting* train,
+                              laws::Collider<D>& a, laws::Collider<D>& b);
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);

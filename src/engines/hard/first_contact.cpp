@@ -113,7 +113,8 @@ double first_contact_with_plane(double gap, double speed, double pull) {
   const double square = speed * speed - 2 * pull * gap;  // of the velocity when it touches
   if (speed < 0) return square >= 0 ? 2 * gap / (std::sqrt(square) - speed) : never;  // or it turns before
   if (pull >= 0) return never;
-  return (speed + std::sqrt(std::max(0.0, square))) / -pull;  // less than 0 by rounding: it touches as it turns
+  return (speed + std::sqrt(std::max(0.0, square))) /
+         -pull;  // less than 0 by rounding: it touches as it turns
 }
 
 template double first_contact(const Approach<2>&);

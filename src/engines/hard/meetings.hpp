@@ -10,9 +10,9 @@ namespace chute::hard {
 
 /// The contact of two grains as hard spheres know it: a train of collisions that follow each other closely.
 struct Meeting {
-  std::int32_t other = 0;  ///< the grain with the higher id; from the number of grains on, a wall
-  double first = 0;        ///< when the train began
-  double last = 0;         ///< its last collision
+  std::int32_t other = 0;           ///< the grain with the higher id; from the number of grains on, a wall
+  double first = 0;                 ///< when the train began
+  double last = 0;                  ///< its last collision
   std::array<double, 3> impulse{};  ///< on `other` since `first`, without the collision that began it
   bool lasting() const { return last > first; }
 

@@ -79,7 +79,8 @@ class HybridEngine final : public Engine {
   void note_touch(const Hit<D>& hit, const Vec<D>& n, const hard::Meeting* train);
   void push_apart(double end);
   void move_apart(std::size_t i, const Vec<D>& way);
-  Contact told(std::size_t i, std::size_t j, const Vec<D>& place, const Vec<D>& way, const Vec<D>& force) const;
+  Contact told(std::size_t i, std::size_t j, const Vec<D>& place, const Vec<D>& way,
+               const Vec<D>& force) const;
   void show();
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>

@@ -34,8 +34,8 @@ struct Setting {
   double widest_spacing = 1;
   std::int64_t grains = 1;
   bool independent = false, rotation = true;
-  double launch_velocity = 0;  ///< mean v_x at the start
-  double fastest = 0;          ///< how fast the fastest grain is at the start, about
+  double launch_velocity = 0;              ///< mean v_x at the start
+  double fastest = 0;                      ///< how fast the fastest grain is at the start, about
   std::vector<WallSurface> wall_surfaces;  ///< of [[wall]], in order: what is their own
 
   laws::Pair reference() const { return pairs.front().pair; }

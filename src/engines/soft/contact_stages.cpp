@@ -130,7 +130,8 @@ void Contacts<D>::reserve(std::size_t most) {
 }
 
 template <int D>
-ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa, SlipRule rule)
+ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa,
+                                SlipRule rule)
     : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
 
 /// Writes the pairs of `range` that touch to `pair`, and tells how many they are. In pieces, whose hits stay

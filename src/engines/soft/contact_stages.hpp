@@ -6,10 +6,10 @@
 #include "core/domain.hpp"
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
-#include "laws/list.hpp"
-#include "search/neighbour_list.hpp"
 #include "engines/soft/contact_memory.hpp"
 #include "engines/soft/contacts.hpp"
+#include "laws/list.hpp"
+#include "search/neighbour_list.hpp"
 
 namespace chute::soft {
 
@@ -45,7 +45,8 @@ class ContactStages {
   /// The same for contacts whose geometry is there already, as that of contacts with walls is (WallContacts).
   void evaluate_found(const Grains<D>& grains, Contacts<D>& contacts, double duration);
   /// Adds what they do to the first grain of each.
-  void apply_first(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums) const;
+  void apply_first(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
+                   GrainSums<D>& sums) const;
 
   /// Adds what the contacts do to each grain, in their order, over `duration`.
   void apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums,

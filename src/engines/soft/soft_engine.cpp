@@ -98,10 +98,13 @@ bool SoftEngine<D>::sorts() const {
 /// be undone has cost its steps for nothing; where that happens again and again, single steps follow for ever longer.
 template <int D>
 bool SoftEngine<D>::advance_in_tiles(std::int64_t step) {
-  constexpr std::int64_t first_pause = 64, longest_pause = 4096;  // steps: a block's, and some hundred times that
+  constexpr std::int64_t first_pause = 64,
+                         longest_pause = 4096;  // steps: a block's, and some hundred times that
   const auto& many = setup_.many;
   const bool pays = team_->size() > 1 || grains_.moving > 2 * many.grains_per_tile;
-  if (!many.tiles || !pays || walls_.any() || setup_.tilt || order_.empty() || step_ < no_tiles_until_ || !sorts()) return false;
+  if (!many.tiles || !pays || walls_.any() || setup_.tilt || order_.empty() || step_ < no_tiles_until_ ||
+      !sorts())
+    return false;
   const StepParts<D> parts{grains_, sums_, list_, stages_, integrator_, *team_, setup_.time_step};
   const std::int64_t unsorted = many.sort_every - step_ % many.sort_every;
   candidates();  // up to date
@@ -159,9 +162,11 @@ void SoftEngine<D>::check_overlaps() const {
     const double depth =
         contacts.overlap[c] / (wall ? grains_.radius[i] : std::min(grains_.radius[i], grains_.radius[j]));
     if (depth > setup_.deepest_overlap)
-      leave_physics(i, fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): stiffness is too low for "
-                                   "these velocities",
-                                   wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap));
+      leave_physics(
+          i,
+          fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): stiffness is too low for "
+                      "these velocities",
+                      wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap));
   });
 }
 
@@ -241,7 +246,9 @@ void SoftEngine<D>::collect_impacts(bool on) {
 template <int D>
 void SoftEngine<D>::remember_touching() {
   touched_.clear();
-  for_contacts([&](const Contacts<D>& contacts, std::size_t c) { touched_.emplace_back(contacts.i[c], contacts.j[c]); });
+  for_contacts([&](const Contacts<D>& contacts, std::size_t c) {
+    touched_.emplace_back(contacts.i[c], contacts.j[c]);
+  });
   if (walls_.count() > 0) std::sort(touched_.begin(), touched_.end());
 }
 
@@ -315,7 +322,8 @@ Contact SoftEngine<D>::told(const Contacts<D>& contacts, std::size_t c) const {
     n = -1.0 * n, force = -1.0 * force;
   }
   const double arm = grains_.radius[i] - 0.5 * contact.overlap;
-  const double length = wall ? grains_.radius[i] - contact.overlap : grains_.radius[i] + grains_.radius[j] - contact.overlap;
+  const double length =
+      wall ? grains_.radius[i] - contact.overlap : grains_.radius[i] + grains_.radius[j] - contact.overlap;
   contact.point = as_file_vector(grains_.place(i) + arm * n);
   contact.branch = as_file_vector(length * n);
   set_force(contact, n, force);
@@ -338,8 +346,9 @@ template <int D>
 template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   archive(self.order_, self.grains_, self.integrator_.derivatives(), self.start_place_, self.account_.start,
-          self.account_.shear_loss, self.account_.wall_work, self.account_.gravity_work, self.sums_.normal_loss, self.sums_.shear_loss, self.step_, self.collecting_,
-          self.touched_, self.touches_, self.stages_.memory(), self.walls_);
+          self.account_.shear_loss, self.account_.wall_work, self.account_.gravity_work,
+          self.sums_.normal_loss, self.sums_.shear_loss, self.step_, self.collecting_, self.touched_,
+          self.touches_, self.stages_.memory(), self.walls_);
 }
 
 template <int D>

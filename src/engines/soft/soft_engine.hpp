@@ -3,12 +3,12 @@
 
 #include "core/engine.hpp"
 #include "core/world.hpp"
-#include "search/neighbour_list.hpp"
 #include "engines/soft/contact_stages.hpp"
 #include "engines/soft/integrator.hpp"
 #include "engines/soft/strips.hpp"
 #include "engines/soft/time_tiles.hpp"
 #include "engines/soft/wall_contacts.hpp"
+#include "search/neighbour_list.hpp"
 
 namespace chute::soft {
 
@@ -30,7 +30,7 @@ struct SoftSetup : Surroundings<D> {
   double time_step = 0;
   typename search::NeighbourList<D>::Skins skins{};
   double deepest_overlap = 0.25;  ///< of the smallest radius; beyond it the run has left physics
-  double contact_time = 0;  ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
+  double contact_time = 0;        ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
   search::Method search = search::Method::cells;
   Isa isa = best_isa();
   int threads = 1;  ///< results do not depend on it
@@ -85,7 +85,8 @@ class SoftEngine final : public Engine {
   std::int64_t step_ = 0;
   bool collecting_ = false;
   std::vector<Impact> impacts_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> touched_, touched_before_;  // contacts of the last two steps
+  std::vector<std::pair<std::int32_t, std::int32_t>> touched_,
+      touched_before_;  // contacts of the last two steps
   TouchLog touches_;
   std::unique_ptr<Team> team_;
   std::vector<std::int32_t> order_;  // id of the grain at each place; empty: as they are
@@ -93,7 +94,7 @@ class SoftEngine final : public Engine {
   std::unique_ptr<TimeTiles<D>> tiles_;
   std::int64_t tiled_steps_ = 0, undone_ = 0;
   std::int64_t tile_pause_ = 0, no_tiles_until_ = 0;  // after blocks that had to be undone
-  mutable Grains<D> by_id_;  // for who looks, if they are kept in another order
+  mutable Grains<D> by_id_;                           // for who looks, if they are kept in another order
   mutable std::array<Array, D> force_by_id_;
 
   search::Candidates<D> candidates();

@@ -39,7 +39,8 @@ void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest,
       contacts.j[c] = static_cast<std::int32_t>(grains.size() + w);
       contacts.m_eff[c] = 1 / grains.inverse_mass[i];
       contacts.r_eff[c] = walls_[w].effective_radius(R);
-      const Vec<D> n = -1.0 * nearest.normal, dv = walls_[w].surface_velocity(nearest, time) - grains.speed(i);
+      const Vec<D> n = -1.0 * nearest.normal,
+                   dv = walls_[w].surface_velocity(nearest, time) - grains.speed(i);
       const double v_n = dot(dv, n);
       for (int k = 0; k < D; ++k) contacts.normal[k][c] = n[k];
       if constexpr (D == 2) {
@@ -56,7 +57,8 @@ void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest,
 }
 
 template <int D>
-void WallContacts<D>::evaluate(const Grains<D>& grains, double time, double duration, double deepest, GrainSums<D>& sums) {
+void WallContacts<D>::evaluate(const Grains<D>& grains, double time, double duration, double deepest,
+                               GrainSums<D>& sums) {
   work_ = 0;
   for (auto& group : groups_) {
     find(grains, time, deepest, group);

@@ -1,4 +1,4 @@
-#include "view/field.hpp"
+#include "view/color_field.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,7 +44,7 @@ std::string escaped(std::string_view name) {
   return text;
 }
 
-std::vector<double> Field::values(const read::GrainFrame& frame) const {
+std::vector<double> ColorField::values(const read::GrainFrame& frame) const {
   if (is_none()) return std::vector<double>(frame.size(), 0.0);
   if (array == fields::radius.name && part == Part::scalar) return frame.radius;
   const auto* source = frame.find(array);
@@ -65,7 +65,7 @@ std::vector<double> Field::values(const read::GrainFrame& frame) const {
   return result;
 }
 
-std::string Field::title(const std::string& units) const {
+std::string ColorField::title(const std::string& units) const {
   if (is_none()) return "";
   const auto* field = known(array);
   const bool is_part =
@@ -81,17 +81,21 @@ std::string Field::title(const std::string& units) const {
   return symbol(label);
 }
 
-bool Field::is_signed() const {
+bool ColorField::is_signed() const {
   if (part == Part::magnitude) return false;
   const auto* field = known(array);
   return field && (field->is_signed || (part == Part::component));
 }
 
-Field find_field(std::string_view text, const read::GrainFrame& frame) {
+bool ColorField::names_kinds() const { return array == fields::material.name && part == Part::scalar; }
+
+std::string color_array(std::string_view text) { return std::string(text.substr(0, text.rfind(':'))); }
+
+ColorField find_field(std::string_view text, const read::GrainFrame& frame) {
   if (text == "none") return {};
   if (text.empty()) {
     if (const auto* v = frame.find(fields::velocity.name); v && v->components == 3)
-      return {std::string(fields::velocity.name), Field::Part::magnitude, 0};
+      return {std::string(fields::velocity.name), ColorField::Part::magnitude, 0};
     return {};
   }
   const auto colon = text.rfind(':');
@@ -99,26 +103,27 @@ Field find_field(std::string_view text, const read::GrainFrame& frame) {
   const std::string_view part = colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
   const auto* array = frame.find(name);
   if (!array && name == fields::radius.name && part.empty())
-    return {std::string(name), Field::Part::scalar, 0};
+    return {std::string(name), ColorField::Part::scalar, 0};
   if (!array) {
-    std::vector<std::string> there;
-    for (const auto& a : frame.arrays) there.push_back(a.name);
+    std::vector<std::string> there = frame.names;
+    for (const auto& a : frame.arrays)
+      if (std::find(there.begin(), there.end(), a.name) == there.end()) there.push_back(a.name);
     const auto hint = nearest(name, there);
     throw InputError(fmt::format("{}: no array \"{}\" to colour by{}, there are: {}", frame.file.string(),
                                  name, hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint),
                                  fmt::join(there, ", ")));
   }
-  Field field{canonical(name, frame), Field::Part::scalar, 0};
+  ColorField field{canonical(name, frame), ColorField::Part::scalar, 0};
   if (array->components == 1 && part.empty()) return field;
   if (array->components > 1 && (part == "magnitude" || (part.empty() && array->components <= 3))) {
-    field.part = Field::Part::magnitude;
+    field.part = ColorField::Part::magnitude;
     // in the plane everything turns about the same axis: the sign is what tells
     if (part.empty() && field.array == fields::angular_velocity.name && frame.dimensions == 2 &&
         array->components == 3)
-      field.part = Field::Part::component, field.component = 2;
+      field.part = ColorField::Part::component, field.component = 2;
     return field;
   }
-  field.part = Field::Part::component;
+  field.part = ColorField::Part::component;
   const auto letter = part.size() == 1 ? std::string_view("xyz").find(part[0]) : std::string_view::npos;
   const auto digit = part.size() == 1 ? std::string_view("0123456789").find(part[0]) : std::string_view::npos;
   field.component = static_cast<int>(std::min<std::size_t>(std::min(letter, digit), 99));
