@@ -6,6 +6,7 @@
 using namespace chute;
 using namespace chute::test;
 using namespace chute::event;
+using namespace chute::hard;
 
 namespace {
 

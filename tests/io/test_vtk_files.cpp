@@ -57,7 +57,7 @@ struct Sample {
   GrainsView view() const { return view_of(grains, force, domain, 1.5); }
 };
 
-const io::RunFacts facts{"SI", 2, {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}, {}, {}};
+const io::RunFacts facts{"SI", 2, {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}, {}};
 
 void check_facts(vtkPolyData* data) {
   auto* field = data->GetFieldData();

@@ -70,10 +70,10 @@ TEST_CASE("walls of a scene stand where they are asked for, and the written scen
 
 TEST_CASE("a bad wall gets one line with file, line and key") {
   for (const auto& [wall, message] : std::vector<std::pair<std::string, std::string>>{
-           {"friction = 0.1", "walls.toml:25: wall[0]: lacks its shape, give one: a plane (point, normal)"},
+           {"friction = 0.1", "walls.toml:24: wall[0]: lacks its shape, give one: a plane (point, normal)"},
            {"normal = [0, 1]", "wall[0].point: missing: where is the plane?"},
            {"point = [0, 0]\nnormal = [0, 0]",
-            "walls.toml:27: wall[0].normal: has no direction, must not be 0"},
+            "walls.toml:26: wall[0].normal: has no direction, must not be 0"},
            {"point = [0, 0]\nnormal = [0, 1]\nfrom = [0, 0]\nto = [1, 0]",
             "wall[0]: is several things at once"},
            {"point = [0, 0]\nfrom = [0, 0]\nto = [1, 0]", "wall[0].point: belongs to planes and cylinders"},
