@@ -1,3 +1,5 @@
+#include "engines/automaton/automaton_method.hpp"
+#include "engines/dsmc/dsmc_method.hpp"
 #include "engines/event/event_method.hpp"
 #include "engines/hybrid/hybrid_method.hpp"
 #include "engines/soft/soft_method.hpp"
@@ -6,9 +8,10 @@
 namespace chute::engines {
 
 Catalogue<Method>& list() {
-  static Catalogue<Method> all{kind_of<Method, soft::SoftMethod>(), kind_of<Method, event::EventMethod>(),
-                               kind_of<Method, hybrid::HybridMethod>(),
-                               kind_of<Method, stochastic::StochasticMethod>()};
+  static Catalogue<Method> all{
+      kind_of<Method, soft::SoftMethod>(),           kind_of<Method, event::EventMethod>(),
+      kind_of<Method, hybrid::HybridMethod>(),       kind_of<Method, stochastic::StochasticMethod>(),
+      kind_of<Method, automaton::AutomatonMethod>(), kind_of<Method, dsmc::DsmcMethod>()};
   return all;
 }
 
