@@ -24,8 +24,10 @@ double rate_3d(double phi, double T, bool dense) {
 
 /// Measured over expected rate of an elastic gas. A grain takes part in 2/N of the collisions.
 template <int D>
-double rate_ratio(Dense dense, double phi, std::size_t count, std::int64_t steps, double cell = 3) {
-  Gas<D> gas(count, phi, 1.3);
+double rate_ratio(Dense dense, double phi, std::size_t count, std::int64_t steps, double cell = 3,
+                  double weight = 1) {
+  Gas<D> gas(count, phi / weight, 1.3);
+  gas.setup.weight = weight;
   const double expected =
       D == 2 ? rate_2d(phi, 1.3, dense != Dense::none) : rate_3d(phi, 1.3, dense != Dense::none);
   gas.setup.dense = dense;
@@ -48,8 +50,10 @@ TEST_CASE("grains collide as often as kinetic theory says") {
   CHECK(rate_ratio<3>(Dense::none, 0.05, 40000, 500) == Approx(1).epsilon(0.003));
   CHECK(rate_ratio<2>(Dense::rate, 0.2, 40000, 500) == Approx(1).epsilon(0.003));
   CHECK(rate_ratio<3>(Dense::rate, 0.2, 40000, 500) == Approx(1).epsilon(0.003));
-  CHECK(rate_ratio<2>(Dense::esmc, 0.2, 10000, 300) == Approx(1).epsilon(0.01));
-  CHECK(rate_ratio<3>(Dense::esmc, 0.2, 10000, 300) == Approx(1).epsilon(0.01));
+  // With few grains in a cell a grain finds the partner again that it has just hit, which it leaves: fewer collisions. So
+  // simulated grains stand for less than one real one here, and some 40 are in a cell.
+  CHECK(rate_ratio<2>(Dense::esmc, 0.2, 40000, 100, 3, 0.05) == Approx(1).epsilon(0.01));
+  CHECK(rate_ratio<3>(Dense::esmc, 0.2, 40000, 100, 3, 0.2) == Approx(1).epsilon(0.01));
 }
 
 TEST_CASE("the rate does not depend on cells and step") {
@@ -102,8 +106,8 @@ void cools(double e_n) {
   gas.setup.dense = Dense::none;
   const double omega = D == 2 ? rate_2d(phi, 1, false) : rate_3d(phi, 1, false);
   gas.setup.time_step = 0.1 / omega;
-  // With partners from a sixth of the box the gas stays homogeneous, as theory has it.
-  gas.setup.cell = gas.setup.domain.length[0] / 6;
+  // All grains are in one cell: so the gas stays homogeneous, as theory has it.
+  gas.setup.cell = gas.setup.domain.length[0];
   DsmcEngine<D> engine(gas.grains, gas.setup);
   engine.advance_to(60);  // the distribution takes its shape within a few collisions
   const double T_0 = told(engine, "temperature"), start = engine.time();
@@ -142,7 +146,7 @@ TEST_CASE("a rough gas shares its energy between both motions") {
     gas.setup.contact = {laws::ConstantRestitution{e}, laws::Walton{1e6, beta}};
     gas.setup.dense = Dense::none;
     gas.setup.time_step = 0.1 / rate_2d(0.05, 1, false);
-    gas.setup.cell = gas.setup.domain.length[0] / 6;
+    gas.setup.cell = gas.setup.domain.length[0];
     DsmcEngine<2> engine(gas.grains, gas.setup);
     engine.advance_to(800);
     double ratio = 0;
@@ -155,7 +159,7 @@ TEST_CASE("a rough gas shares its energy between both motions") {
   }
 }
 
-// Heating and loss: T = (2 ξ²/(ζ*))^(2/3) from d T/dt = m ξ² − ζ T, with ζ = (1 − e²) ω/D · (1 + 3/16 a_2): for e near 1.
+// Heating and loss: T = (2 ξ²/(ζ*))^(2/3) from d T/dt = m ξ² − ζ T, with ζ = (1 − e²) ω/D (1 + 3/16 a_2), where a_2 = −0.02.
 TEST_CASE("white noise and dissipation come to rest where theory has it") {
   constexpr double e = 0.9, phi = 0.05, heat = 0.02;
   Gas<2> gas(20000, phi);
@@ -163,13 +167,13 @@ TEST_CASE("white noise and dissipation come to rest where theory has it") {
   gas.setup.dense = Dense::none;
   gas.setup.heating = heat;
   gas.setup.time_step = 0.2;
-  gas.setup.cell = 10;
+  gas.setup.cell = gas.setup.domain.length[0];  // homogeneous
   DsmcEngine<2> engine(gas.grains, gas.setup);
   engine.advance_to(3000);
   double T = 0;
   for (int k = 1; k <= 20; ++k) engine.advance_to(3000 + 20 * k), T += told(engine, "temperature") / 20;
-  const double zeta = (1 - e * e) * rate_2d(phi, 1, false) / 2;
-  CHECK(T == Approx(std::pow(heat / zeta, 2.0 / 3)).epsilon(0.02));
+  const double zeta = (1 - e * e) * rate_2d(phi, 1, false) / 2 * (1 - 3 * 0.02 / 16);
+  CHECK(T == Approx(std::pow(heat / zeta, 2.0 / 3)).epsilon(0.01));
   const Vec<2> p = momentum(engine.state());
   CHECK(std::abs(p[0]) + std::abs(p[1]) < 1e-8);
   const auto account = engine.energy();

@@ -59,7 +59,7 @@ TEST_CASE("an elastic gas over a floor is barometric, and as warm everywhere") {
   constexpr double T = 5;
   constexpr std::size_t count = 20000;
   dsmc::DsmcSetup<2> setup;
-  setup.domain.length[0] = 2000;
+  setup.domain.length[0] = 20000;
   setup.walls = {floor_wall<2>()};
   setup.gravity = {{0, -1}};
   setup.contact = {laws::ConstantRestitution{1}, laws::Walton{0, -1}};
@@ -69,7 +69,7 @@ TEST_CASE("an elastic gas over a floor is barometric, and as warm everywhere") {
   Grains<2> grains;
   for (std::size_t i = 0; i < count; ++i) {
     Random random(3, Purpose::start, i);
-    grains.add({{2000 * random.uniform(), 0.5 - T * std::log1p(-random.uniform())}}, 0.5, 1, 0.1, true);
+    grains.add({{20000 * random.uniform(), 0.5 - T * std::log1p(-random.uniform())}}, 0.5, 1, 0.1, true);
     grains.velocity[0].back() = std::sqrt(T) * random.normal(),
     grains.velocity[1].back() = std::sqrt(T) * random.normal();
   }

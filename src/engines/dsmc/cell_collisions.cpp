@@ -122,7 +122,7 @@ void CellCollisions<D>::in_cell(Grains<D>& grains, const GasCells<D>& cells, std
   }
   double v_max = 2 * std::sqrt(farthest);
   const double pairs = static_cast<double>(N * (N - 1));
-  const double factor = setup_.dense == Dense::rate ? chi<D>(std::min(cells.packing(cell), densest)) : 1;
+  const double factor = setup_.dense == Dense::rate ? cells.crowding(cell) : 1;
   const double mean_candidates = 0.5 * pairs * setup_.weight * factor * std::pow(widest_, D - 1) * facing<D> *
                                  v_max * setup_.time_step / cells.volume(cell);
   if (!(mean_candidates > 0)) return;
@@ -167,9 +167,7 @@ void CellCollisions<D>::with_neighbours(Grains<D>& grains, const GasCells<D>& ce
   const auto ids = cells.members(cell);
   if (ids.empty()) return;
   // χ w/V of a cell, by which its number of grains is multiplied.
-  const auto crowding = [&](std::size_t c) {
-    return chi<D>(std::min(cells.packing(c), densest)) * setup_.weight / cells.volume(c);
-  };
+  const auto crowding = [&](std::size_t c) { return cells.crowding(c) * setup_.weight / cells.volume(c); };
   double most = 0, fastest = 0;
   Vec<D> mean{};
   for (const auto i : ids) mean = mean + grains.speed(i);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
+#include <cereal/types/vector.hpp>
 #include <cmath>
 
 #include "common/error.hpp"
@@ -14,6 +16,9 @@ namespace {
 
 /// Grains that one thread takes at a time; sums are made of these.
 constexpr std::size_t chunk = 1024;
+
+/// Whether it is still a gas is looked at now and then, and whenever somebody looks.
+constexpr std::int64_t steps_between_checks = 50;
 
 }  // namespace
 
@@ -53,7 +58,10 @@ double DsmcEngine<D>::gravity_potential() const {
 template <int D>
 void DsmcEngine<D>::advance(std::int64_t step) {
   if (step <= step_) return;
-  while (step_ < step) take_step();
+  while (step_ < step) {
+    take_step();
+    if (step_ % steps_between_checks == 0) check_physics();
+  }
   check_physics();
 }
 

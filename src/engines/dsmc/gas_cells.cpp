@@ -9,8 +9,7 @@
 namespace chute::dsmc {
 namespace {
 
-/// How much of a step's packing goes into the average: a cell's number of grains is much too noisy for χ, which is not
-/// linear, and the gas changes over many steps.
+/// How much of a step's packing goes into the average that says whether the gas is too dense: a single step's is noisy.
 constexpr double newest = 0.02;
 
 /// Places along each direction at which a cell is asked whether it is free.
@@ -24,9 +23,12 @@ constexpr std::size_t most_per_grain = 20, fewest_cells = 100000;
 template <int D>
 GasCells<D>::GasCells(const Grains<D>& grains, const DsmcSetup<D>& setup, const Obstacles<D>& obstacles)
     : setup_(setup), obstacles_(obstacles), counts_(static_cast<std::size_t>(setup.threads)) {
+  mean_content_ = 0;
   mean_radius_ = std::accumulate(grains.radius.begin(),
                                  grains.radius.begin() + static_cast<std::ptrdiff_t>(grains.moving), 0.0) /
                  static_cast<double>(grains.moving);
+  for (std::size_t i = 0; i < grains.moving; ++i)
+    mean_content_ += content<D>(grains.radius[i]) / static_cast<double>(grains.moving);
   for (int k = 0; k < D; ++k) lay(k, grains);
   add_volumes();
   cell_.resize(grains.moving), order_.resize(grains.moving);
@@ -124,6 +126,7 @@ void GasCells<D>::fill(const Grains<D>& grains, Team& team) {
   const std::size_t cells = count();
   start_.assign(cells + 1, 0);
   content_.assign(cells, 0);
+  now_.resize(cells), share_.resize(cells);
   team.split(grains.moving, [&](Part part, std::size_t k) {
     auto& mine = counts_[k];
     mine.assign(cells, 0);
@@ -160,10 +163,17 @@ void GasCells<D>::fill(const Grains<D>& grains, Team& team) {
     for (std::size_t c = part.begin; c < part.end; ++c) {
       double filled = 0, room = 0;
       around(c, [&](std::size_t other) { filled += content_[other], room += volume_[other]; });
-      phi_[c] += (settled_ ? newest : 1) * (filled / room - phi_[c]);
+      now_[c] = filled / room, share_[c] = setup_.weight * mean_content_ / room;
+      phi_[c] += (settled_ ? newest : 1) * (now_[c] - phi_[c]);
     }
   });
   settled_ = true;
+}
+
+template <int D>
+double GasCells<D>::crowding(std::size_t cell) const {
+  const double phi = std::clamp(now_[cell] - 2 * share_[cell], 0.0, densest);
+  return std::max(1.0, chi<D>(phi) - 0.5 * chi_bend<D>(phi) * phi * share_[cell]);
 }
 
 template <int D>

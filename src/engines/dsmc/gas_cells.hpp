@@ -29,7 +29,12 @@ class GasCells {
     return {&order_[start_[cell]], start_[cell + 1] - start_[cell]};
   }
   double volume(std::size_t cell) const { return volume_[cell]; }
-  /// φ around, averaged over neighbours and over the last steps.
+  /// χ around the cell. Grains are counted in the cell and those beside it, which are few, so that their number fluctuates:
+  /// by Poisson's law, for what chance partners know nothing of is where others are. Two things follow, for which χ is
+  /// corrected: a pair is more often where it is crowded by itself, so it is left out of the count (the mean of N (N − 1) f(N)
+  /// is μ² times that of f(N + 2)); and the mean of χ is not χ of the mean, but more by ½ χ'' times the variance.
+  double crowding(std::size_t cell) const;
+  /// φ around, averaged over the last steps.
   double packing(std::size_t cell) const { return phi_[cell]; }
   double densest_packing() const;
   const Index& along() const { return many_; }
@@ -98,12 +103,13 @@ class GasCells {
  private:
   const DsmcSetup<D>& setup_;
   const Obstacles<D>& obstacles_;
-  double mean_radius_ = 0.5;
+  double mean_radius_ = 0.5, mean_content_ = 1;
   Vec<D> low_{}, side_{}, inverse_{};
   Index many_{};
   bool grows_ = false;  // upwards
   std::vector<double> volume_, phi_, content_;
-  bool settled_ = false;  // phi_ has a past
+  std::vector<double> now_, share_;  // φ of this step, and what one grain adds to it
+  bool settled_ = false;             // phi_ has a past
   std::vector<std::uint32_t> cell_, order_, start_;
   std::vector<std::vector<std::uint32_t>> counts_;  // of each thread
 
@@ -111,7 +117,6 @@ class GasCells {
   void grow(const Grains<D>& grains);
   void add_volumes();
   double free_part(const Vec<D>& corner) const;
-  void smooth();
 };
 
 }  // namespace chute::dsmc

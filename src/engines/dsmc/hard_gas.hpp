@@ -27,6 +27,14 @@ double chi(double phi) {
   return D == 2 ? (1 - 7 * phi / 16) / (free * free) : (1 - phi / 2) / (free * free * free);
 }
 
+/// χ'' of these.
+template <int D>
+double chi_bend(double phi) {
+  const double free = 1 - phi, cube = free * free * free;
+  return D == 2 ? (6 * (1 - 7 * phi / 16) / free - 7.0 / 4) / cube
+                : (12 * (1 - phi / 2) / free - 3) / (cube * free);
+}
+
 /// Collisions of a grain per time: 2 n d χ √(πT/m) in 2D, 4 n d² χ √(πT/m) in 3D.
 template <int D>
 double collision_rate(double n, double d, double chi_, double T, double m) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engines/hard/first_contact.hpp"
+#include "engines/hard/thermal_wall.hpp"
 #include "engines/hard/wall_flight.hpp"
 
 namespace chute::dsmc {
@@ -13,30 +14,6 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Hits of one grain in one step; a grain that comes to rest on something would hit it without end.
 constexpr int most_hits = 64;
-
-/// A unit vector at right angles to n.
-template <int D>
-Vec<D> aside(const Vec<D>& n) {
-  if constexpr (D == 2) {
-    return {{n[1], -n[0]}};
-  } else {
-    const Vec<3> other = std::abs(n[0]) < 0.6 ? Vec<3>{{1, 0, 0}} : Vec<3>{{0, 1, 0}};
-    const Vec<3> s = cross(n, other);
-    return (1 / norm(s)) * s;
-  }
-}
-
-/// Velocity of what leaves a wall as if from a gas at temperature T behind it: along the normal the flux of a Maxwellian,
-/// v_n = √(−2 T/m ln u), and a Maxwellian along the wall.
-template <int D>
-Vec<D> thermal(const Vec<D>& n, double T, double mass, Random& random) {
-  const double v = std::sqrt(T / mass);
-  Vec<D> out = v * std::sqrt(-2 * std::log1p(-random.uniform())) * n;
-  const Vec<D> s = aside<D>(n);
-  out = out + v * random.normal() * s;
-  if constexpr (D == 3) out = out + v * random.normal() * cross(n, s);
-  return out;
-}
 
 }  // namespace
 
@@ -150,7 +127,7 @@ void Obstacles<D>::bounce(std::size_t i, hard::Flight<D>& flight, const Hit& hit
   const double before = 0.5 * mass * dot(flight.velocity, flight.velocity);
   const auto& own = hit.bead ? WallSurface{} : setup_.walls[hit.wall].surface;
   if (own.temperature) {
-    flight.velocity = other.velocity + thermal(n, *own.temperature, mass, random);
+    flight.velocity = other.velocity + hard::thermal_velocity(n, *own.temperature, mass, random);
     tally.wall_work += 0.5 * mass * dot(flight.velocity, flight.velocity) - before;
     return;
   }

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/contact.hpp"
 #include "core/impact.hpp"
 #include "core/random.hpp"
 #include "engines/dsmc/dsmc_setup.hpp"
