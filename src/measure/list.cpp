@@ -1,13 +1,14 @@
 #include "measure/avalanches.hpp"
+#include "measure/cells.hpp"
 #include "measure/outputs.hpp"
 
 namespace chute::measure {
 
 Catalogue<Output>& list() {
-  static Catalogue<Output> all{kind_of<Output, FramesOutput>(),    kind_of<Output, SeriesOutput>(),
-                               kind_of<Output, ProfilesOutput>(),  kind_of<Output, FieldsOutput>(),
-                               kind_of<Output, ImpactsOutput>(),   kind_of<Output, ImpactHistogramsOutput>(),
-                               kind_of<Output, AvalanchesOutput>()};
+  static Catalogue<Output> all{kind_of<Output, FramesOutput>(),     kind_of<Output, SeriesOutput>(),
+                               kind_of<Output, ProfilesOutput>(),   kind_of<Output, FieldsOutput>(),
+                               kind_of<Output, ImpactsOutput>(),    kind_of<Output, ImpactHistogramsOutput>(),
+                               kind_of<Output, AvalanchesOutput>(), kind_of<Output, CellsOutput>()};
   return all;
 }
 
