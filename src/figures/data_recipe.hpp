@@ -14,18 +14,24 @@ namespace chute::figures {
 
 /// How a run's files become rows of the figure's table.
 enum class Extract {
-  histogram,   ///< of one column of the impacts; density with integral 1, x = middle of the bin
-  return_map,  ///< a column of the impacts against the same of the impact before, grain by grain
-  scatter,     ///< one column of the impacts against another, one row per impact
-  peak,        ///< place (y) and width (y_err) of one peak of a column of the impacts, at `at` (x)
-  profile,     ///< a column of profiles.csv (of profiles_fine.csv with `fine`) against h
-  series       ///< a column of series.csv against time
+  histogram,      ///< of one column of the impacts; density with integral 1, x = middle of the bin
+  return_map,     ///< a column of the impacts against the same of the impact before, grain by grain
+  scatter,        ///< one column of the impacts against another, one row per impact
+  peak,           ///< place (y) and width (y_err) of one peak of a column of the impacts, at `at` (x)
+  profile,        ///< a column of profiles.csv (of profiles_fine.csv with `fine`) against h
+  series,         ///< a column of series.csv against the clock
+  map,            ///< a field of cells against x, one series a file
+  spectrum,       ///< of that field's fluctuations in time
+  avalanches,     ///< distribution of avalanches' sizes, of a pile as long as `length`
+  mean_avalanche  ///< their mean size, against `length`
 };
 
 /// One series of one panel: which runs, and what is taken from them.
 struct Curve {
   std::string panel, series;
-  std::vector<std::string> set;  ///< key=value, on top of the recipe's
+  std::vector<std::string> set;                 ///< key=value, on top of the recipe's
+  double length = 1;                            ///< L of a pile
+  std::optional<std::vector<double>> collapse;  ///< [τ, D]: s^τ P(s) against s/L^D
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;

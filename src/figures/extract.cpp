@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/fields.hpp"
 #include "core/estimate.hpp"
+#include "figures/extract_fields.hpp"
 #include "figures/peaks.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
@@ -146,16 +147,16 @@ std::vector<bool> telling(const read::Table& table, const std::string& column) {
   return rows;
 }
 
-/// A column of a table against another, averaged over runs at equal x.
+/// A column of a table against another, or against the first, averaged over runs at equal x.
 std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> runs, const std::string& file,
-                                const std::string& against) {
+                                const std::string& other = "") {
   struct Values {
     std::vector<double> y, err;
   };
   std::map<double, Values> at;
   for (const auto& run : runs) {
     const auto table = read::read_table(run / file);
-    const auto x = table.column(against), y = table.column(curve.column);
+    const auto x = table.column(other.empty() ? table.header.front() : other), y = table.column(curve.column);
     const auto tells = telling(table, curve.column);
     const auto error = curve.column + "_err";
     const auto err = table.has(error) ? table.column(error) : std::vector<double>(x.size(), NAN);
@@ -186,7 +187,15 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
     case Extract::profile:
       return averaged(curve, runs, curve.fine ? "profiles_fine.csv" : "profiles.csv", "h");
     case Extract::series:
-      return averaged(curve, runs, "series.csv", "time");
+      return averaged(curve, runs, "series.csv");
+    case Extract::map:
+      return field_map(curve, runs);
+    case Extract::spectrum:
+      return spectrum(curve, runs);
+    case Extract::avalanches:
+      return avalanche_sizes(curve, runs);
+    case Extract::mean_avalanche:
+      return mean_avalanche(curve, runs);
   }
   return {};
 }

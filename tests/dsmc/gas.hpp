@@ -4,6 +4,7 @@
 
 #include "core/random.hpp"
 #include "engines/dsmc/dsmc_engine.hpp"
+#include "engines/dsmc/hard_gas.hpp"
 
 /// Gases by hand, for tests that know the answer.
 namespace chute::test {

@@ -180,6 +180,27 @@ TEST_CASE("white noise and dissipation come to rest where theory has it") {
   CHECK(account.residual() == Approx(0).margin(1e-9 * account.wall_work));
 }
 
+// Collisions carry momentum over the distance of the centres: of the pressure P = nT (1 + 2φχ) of discs the second part is
+// Σ J·d/(2 A t).
+TEST_CASE("with distant partners a gas has the pressure of hard discs") {
+  constexpr double phi = 0.2, T = 1, w = 0.05;
+  Gas<2> gas(20000, phi / w, T);
+  gas.setup.dense = Dense::esmc;
+  gas.setup.weight = w;
+  gas.setup.time_step = 0.2 / rate_2d(phi, T, true);
+  DsmcEngine<2> engine(gas.grains, gas.setup);
+  engine.advance_to(20);
+  engine.collect_collisions(true);
+  const double from = engine.time();
+  engine.advance_to(120);
+  double sum = 0;
+  for (const auto& c : engine.take_collisions()) sum += c.force[0] * c.branch[0] + c.force[1] * c.branch[1];
+  // Per grain: P A/N = T (1 + 2φχ).
+  const double per_grain = sum / (2 * (engine.time() - from) * 20000);
+  const double chi = (1 - 7 * phi / 16) / std::pow(1 - phi, 2);
+  CHECK(per_grain / T == Approx(2 * phi * chi).epsilon(0.01));
+}
+
 TEST_CASE("threads and a restart change no byte") {
   for (const auto dense : {Dense::rate, Dense::esmc}) {
     Gas<2> gas(12000, 0.15, 1, 2, 0.5);

@@ -87,14 +87,15 @@ Tally CellCollisions<D>::collide(Grains<D>& grains, const GasCells<D>& cells, st
                                  Team& team) {
   if (setup_.dense == Dense::esmc) return collide_coloured(grains, cells, step, team);
   const std::size_t chunks = (cells.count() + chunk - 1) / chunk;
-  of_chunk_.assign(chunks, {});
+  of_chunk_.resize(chunks);
+  for (auto& c : of_chunk_) c = {};
   team.run([&](std::size_t k) {
     for (std::size_t at = chunks * k / team.size(); at < chunks * (k + 1) / team.size(); ++at)
       for (std::size_t c = at * chunk; c < std::min((at + 1) * chunk, cells.count()); ++c)
-        in_cell(grains, cells, c, step, buffers_[k], of_chunk_[at]);
+        in_cell(grains, cells, c, step, buffers_[k], of_chunk_[at].tally);
   });
   Tally sum;
-  for (const auto& t : of_chunk_) sum += t;
+  for (const auto& c : of_chunk_) sum += c.tally;
   return sum;
 }
 
@@ -163,7 +164,8 @@ void CellCollisions<D>::in_cell(Grains<D>& grains, const GasCells<D>& cells, std
 /// proportional to χ n there and to Θ(v·σ̂)(v·σ̂). Each collision counts for both, so half of the grains are asked.
 template <int D>
 void CellCollisions<D>::with_neighbours(Grains<D>& grains, const GasCells<D>& cells, std::size_t cell,
-                                        std::uint64_t step, Tally& tally) const {
+                                        std::uint64_t step, Chunk& mine) const {
+  auto& tally = mine.tally;
   const auto ids = cells.members(cell);
   if (ids.empty()) return;
   // χ w/V of a cell, by which its number of grains is multiplied.
@@ -210,6 +212,15 @@ void CellCollisions<D>::with_neighbours(Grains<D>& grains, const GasCells<D>& ce
     put_back(grains, a, i), put_back(grains, b, j);
     ++tally.collisions;
     tally.normal_loss += done.normal_loss, tally.shear_loss += done.shear_loss;
+    if (!collecting_) continue;
+    const bool first = a < b;
+    Collision& kept = mine.kept.emplace_back();
+    kept.a = static_cast<std::int64_t>(std::min(a, b)), kept.b = static_cast<std::int64_t>(std::max(a, b));
+    const Vec<D> along = first ? n : -1 * n;
+    kept.point = as_file_vector(grains.place(std::min(a, b)) + grains.radius[std::min(a, b)] * along);
+    kept.branch = as_file_vector((grains.radius[a] + grains.radius[b]) * along);
+    set_force(kept, along, first ? done.impulse : -1 * done.impulse);
+    kept.time = static_cast<double>(step + 1) * setup_.time_step;
   }
 }
 
@@ -237,7 +248,8 @@ Tally CellCollisions<D>::collide_coloured(Grains<D>& grains, const GasCells<D>& 
     }
     if (total == 0) continue;
     const std::size_t chunks = (total + chunk - 1) / chunk;
-    of_chunk_.assign(chunks, {});
+    of_chunk_.resize(chunks);
+    for (auto& c : of_chunk_) c = {};
     team.run([&](std::size_t member) {
       for (std::size_t c = chunks * member / team.size(); c < chunks * (member + 1) / team.size(); ++c)
         for (std::size_t one = c * chunk; one < std::min((c + 1) * chunk, total); ++one) {
@@ -249,7 +261,10 @@ Tally CellCollisions<D>::collide_coloured(Grains<D>& grains, const GasCells<D>& 
           with_neighbours(grains, cells, cells.number(at), step, of_chunk_[c]);
         }
     });
-    for (const auto& t : of_chunk_) sum += t;
+    for (const auto& c : of_chunk_) {
+      sum += c.tally;
+      kept_.insert(kept_.end(), c.kept.begin(), c.kept.end());
+    }
   }
   return sum;
 }

@@ -1,6 +1,8 @@
 #pragma once
+#include <utility>
 #include <vector>
 
+#include "core/contact.hpp"
 #include "core/random.hpp"
 #include "engines/dsmc/gas_cells.hpp"
 
@@ -18,13 +20,22 @@ class CellCollisions {
 
   /// Collides all cells, in the given step.
   Tally collide(Grains<D>& grains, const GasCells<D>& cells, std::uint64_t step, Team& team);
+  /// With partners a diameter away collisions carry momentum over that way: then they are kept for whoever wants the stress.
+  void collect(bool on) { collecting_ = on && setup_.dense == Dense::esmc; }
+  std::vector<Collision> take() { return std::exchange(kept_, {}); }
 
  private:
   const DsmcSetup<D>& setup_;
   bool rough_;         // spins matter
   double widest_ = 1;  // twice the largest radius
   bool equal_ = true;  // all radii
-  std::vector<Tally> of_chunk_;
+  struct Chunk {
+    Tally tally;
+    std::vector<Collision> kept;
+  };
+  std::vector<Chunk> of_chunk_;
+  bool collecting_ = false;
+  std::vector<Collision> kept_;
   struct Buffer {
     std::vector<Vec<D>> velocity;
     std::vector<Vec<turns<D>>> spin;
@@ -34,7 +45,7 @@ class CellCollisions {
   void in_cell(Grains<D>& grains, const GasCells<D>& cells, std::size_t cell, std::uint64_t step,
                Buffer& buffer, Tally& tally) const;
   void with_neighbours(Grains<D>& grains, const GasCells<D>& cells, std::size_t cell, std::uint64_t step,
-                       Tally& tally) const;
+                       Chunk& mine) const;
   Tally collide_coloured(Grains<D>& grains, const GasCells<D>& cells, std::uint64_t step, Team& team);
 };
 

@@ -30,6 +30,8 @@ class DsmcEngine final : public Engine {
   std::vector<Contact> contacts() const override { return {}; }
   void collect_impacts(bool on) override { collecting_ = on; }
   std::vector<Impact> take_impacts() override { return std::exchange(impacts_, {}); }
+  void collect_collisions(bool on) override { collisions_.collect(on); }
+  std::vector<Collision> take_collisions() override { return collisions_.take(); }
   std::vector<std::pair<std::string, double>> tells() const override;
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;

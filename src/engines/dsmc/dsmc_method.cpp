@@ -61,7 +61,10 @@ DsmcMethod::Gas DsmcMethod::gas(const engines::Setting& s) const {
 }
 
 Offers DsmcMethod::offers() const {
-  return {.impacts = true,
+  // Nothing touches for a while in a gas: its contacts are collisions.
+  return {.contacts = true,
+          .collisions = true,
+          .impacts = true,
           .walls = true,
           .wall_shapes = true,
           .wall_surfaces = true,
