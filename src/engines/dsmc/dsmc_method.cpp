@@ -112,7 +112,7 @@ std::vector<Fact> DsmcMethod::facts(const engines::Setting& s) const {
   const auto tangential = walton(s);
   const auto g = gas(s);
   const double side = cell_side(s);
-  const char* time = s.in("s", "sqrt(d/g)");
+  const auto time = s.in("s", "sqrt(d/g)");
   std::vector<Fact> list{{"e_n", e_n(s), "", "restitution of every collision"},
                          {"mu", tangential.friction, "", "friction of collisions that slide"},
                          {"beta", tangential.beta, "", "tangential restitution of collisions that stick"},
