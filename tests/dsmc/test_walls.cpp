@@ -132,3 +132,22 @@ TEST_CASE("grains that gather to a packing stop the run with a reason") {
   CHECK_THROWS_WITH(engine.advance_to(20000),
                     Catch::Contains("packing fraction") && Catch::Contains("caged"));
 }
+
+// Grains that fly over a bed of beads meet each other in the gaps between them, too: the cells reach down to the beads.
+TEST_CASE("cells reach down to the bed, and their volume is what centres can be in") {
+  dsmc::DsmcSetup<2> setup;
+  setup.domain.length[0] = 20;
+  setup.contact = {laws::ConstantRestitution{1}, laws::Walton{0, -1}};
+  setup.cell = 2;
+  Grains<2> grains;
+  grains.add({{5, 9}}, 0.5, 1, 0.1, true);
+  for (int b = 0; b < 20; ++b) grains.add({{b + 0.5, 0}}, 0.5, 1, 0.1, false);
+  DsmcEngine<2> engine(grains, setup);
+  const auto& cells = engine.cells();
+  CHECK(cells.cell_of({{5, 0.9}}) != dsmc::GasCells<2>::outside);
+  CHECK(cells.cell_of({{5, -0.5}}) == dsmc::GasCells<2>::outside);
+  CHECK(cells.volume(cells.cell_of({{5, 9}})) == Approx(4));
+  // Over touching beads of one diameter, centres are above y = √(1 − s²), |s| ≤ ½ from the nearest bead: the mean of that is
+  // (√3/4 + π/6)/1 = 0.9566, so of a cell from 0 to 2 over two beads 2 × (2 − 0.9566) is left.
+  CHECK(cells.volume(cells.cell_of({{5, 1}})) == Approx(2 * (2 - 0.9566)).epsilon(0.05));
+}

@@ -57,6 +57,11 @@ void GasCells<D>::lay(int k, const Grains<D>& grains) {
         high = std::min(ceiling ? high : wall.point[k] - mean_radius_, wall.point[k] - mean_radius_),
         ceiling = true;
     }
+    // A bed of beads is a floor, too: no centre gets below the lowest bead's.
+    if (k == D - 1 && !floor && grains.moving < grains.size()) {
+      low = *std::min_element(x.begin() + static_cast<std::ptrdiff_t>(grains.moving), x.end());
+      floor = true;
+    }
     if (floor && ceiling) {
       many_[a] = std::max(1, static_cast<int>((high - low) / setup_.cell));
       side_[k] = (high - low) / many_[a];
