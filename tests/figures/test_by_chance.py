@@ -1,0 +1,57 @@
+"""What figures of gases by chance and of automata must show, on the CSV of the quick ones: test_by_chance.py CHUTE."""
+import math
+import sys
+import unittest
+
+from figure_csv import QuickFigures, interpolate
+
+chute = sys.argv[1]
+
+
+class ByChance(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = QuickFigures(chute, "fig-m-10", "fig-m-11", "fig-m-15", "fig-m-16")
+
+    def test_rice_pile(self):
+        curves = self.made.curves("fig-m-16")
+        for L, mean, error in curves["c", "mean"]:
+            self.assertLess(abs(mean / L - 1), 0.05, "the mean avalanche of L = %g is %g" % (L, mean))
+        # Collapse: curves of the longest piles lie on each other where neither the smallest sizes nor the cut-off rule.
+        long, longer = curves["b", "L=128"], curves["b", "L=256"]
+        for x in (0.003, 0.01, 0.03, 0.1):
+            a, b = interpolate(long, x), interpolate(longer, x)
+            self.assertLess(abs(math.log(a / b)), 0.35, "at s/L^2.25 = %g: %g and %g" % (x, a, b))
+        # Without the collapse the largest avalanches differ by 2^2.25 = 4.8.
+        ends = [max(s for s, _, _ in curves["a", "L=%d" % L]) for L in (64, 128, 256)]
+        for small, large in zip(ends, ends[1:]):
+            self.assertGreater(large / small, 3)
+            self.assertLess(large / small, 7.5)
+
+    def test_pipe(self):
+        curves = self.made.curves("fig-m-15")
+        rows = [c for (panel, _), c in curves.items() if panel == "a"]
+        self.assertGreater(len(rows), 100)
+        values = [y for row in rows for _, y, _ in row]
+        mean = sum(values) / len(values)
+        spread = math.sqrt(sum((y - mean) ** 2 for y in values) / len(values))
+        # Independent grains on the 220 sites of a cell would scatter by some 7 per cent: waves are several times that.
+        self.assertGreater(spread / mean, 0.2)
+        spectrum = curves["b", "spectrum"]
+        low, high = spectrum[2], spectrum[-3]
+        slope = math.log(high[1] / low[1]) / math.log(high[0] / low[0])
+        self.assertLess(slope, -0.7)
+
+    def test_profiles_agree(self):
+        """Where the gas is dilute both methods have the same profiles."""
+        for figure, heights in (("fig-m-10", (5, 11, 21, 31)), ("fig-m-11", (2.5, 4.5, 6.5))):
+            curves = self.made.curves(figure)
+            for panel, near in (("a", 0.25), ("b", 0.2)):
+                event, dsmc = curves[panel, "event"], curves[panel, "dsmc"]
+                for h in heights:
+                    a, b = interpolate(event, h), interpolate(dsmc, h)
+                    self.assertLess(abs(a / b - 1), near, "%s %s at h = %g: event %g, dsmc %g" % (figure, panel, h, a, b))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
