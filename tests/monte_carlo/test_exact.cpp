@@ -10,12 +10,16 @@ using namespace chute::test;
 
 namespace {
 
-/// A tube one diameter wide: 1 over its length, between two walls.
+/// How much wider than a grain the tube is: enough that sideways moves are not always rejected.
+constexpr double play = 0.1;
+
+/// A tube so narrow that grains cannot pass each other.
 MonteCarloSetup<2> tube(double temperature) {
   auto setup = above_floor<2>();
-  add_wall<2>(setup, {{-0.5001, 0}}, {{1, 0}});
-  add_wall<2>(setup, {{0.5001, 0}}, {{-1, 0}});
-  setup.temperature = temperature, setup.step = 1, setup.serial = true, setup.equilibrate = 200;
+  const double half = (1 + play) / 2;
+  add_wall<2>(setup, {{-half, 0}}, {{1, 0}});
+  add_wall<2>(setup, {{half, 0}}, {{-1, 0}});
+  setup.temperature = temperature, setup.step = 0.15, setup.serial = true;
   return setup;
 }
 
@@ -24,8 +28,9 @@ MonteCarloSetup<2> tube(double temperature) {
 TEST_CASE("the height of a grain over a floor is exponential, with mean T/mg") {
   const double T = 2;
   for (const bool serial : {true, false}) {
-    auto setup = tube(T);
-    setup.serial = serial;
+    auto setup = above_floor<2>();
+    setup.domain.length[0] = 4;
+    setup.temperature = T, setup.step = 2, setup.serial = serial;
     Grains<2> grains;
     add_grain<2>(grains, {{0, 1}});
     MonteCarloEngine<2> engine(grains, setup);
@@ -65,15 +70,15 @@ TEST_CASE("grains in a tube one diameter wide are a Tonks gas under gravity") {
     }
     for (std::size_t i = 0; i < N; ++i) blocks[i].push_back(sum[i]);
   }
-  // The tube is a little wider than a grain, and neighbours pass each other sideways by so much:
-  const double sideways = 2 * 1e-4, closer = 1 - std::sqrt(1 - sideways * sideways);
+  // Neighbours stand beside each other by Δ, of which each has an even share of `play`, and are closer by Δ²/2 in the mean.
+  constexpr double closer = play * play / 12;
   double exact = 0.5;
   for (int k = 1; k <= N; ++k) {
     exact += T / (N - k + 1);
     const auto mean = estimate_in_time(blocks[static_cast<std::size_t>(k - 1)]);
     CAPTURE(k, exact, mean.mean, *mean.error);
-    CHECK(mean.mean == Approx(exact + k - 1).margin(4 * *mean.error + N * closer));
-    CHECK(*mean.error < 0.02 * exact);
+    CHECK(mean.mean == Approx(exact + (k - 1) * (1 - closer)).margin(4 * *mean.error));
+    CHECK(*mean.error < 0.05 * exact);
   }
 }
 
@@ -84,7 +89,8 @@ TEST_CASE("without a temperature no move goes up, and no energy is gained") {
   for (const bool serial : {true, false}) {
     setup.serial = serial;
     Grains<2> grains;
-    for (int i = 0; i < 100; ++i) add_grain<2>(grains, {{0.5 + i % 9 * 1.1, 1 + 1.1 * (i / 9)}}, 0.5 - 0.001 * (i % 7));
+    for (int i = 0; i < 100; ++i)
+      add_grain<2>(grains, {{0.5 + i % 9 * 1.1, 1 + 1.1 * (i / 9)}}, 0.5 - 0.001 * (i % 7));
     MonteCarloEngine<2> engine(grains, setup);
     const double start = engine.potential();
     bool rose = false;
@@ -95,7 +101,7 @@ TEST_CASE("without a temperature no move goes up, and no energy is gained") {
       height = engine.state().position[1];
     }
     CHECK(!rose);
-    CHECK(engine.potential() < 0.8 * start);
+    CHECK(engine.potential() < 0.95 * start);
     CHECK(engine.acceptance() > 0);
   }
 }

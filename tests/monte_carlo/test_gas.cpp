@@ -3,7 +3,7 @@
 
 #include "core/estimate.hpp"
 #include "gas.hpp"
-#include "measure/contact_value.hpp"
+#include "measure/pair_distances.hpp"
 
 using namespace chute;
 using namespace chute::test;
@@ -19,7 +19,9 @@ double virial_discs(double phi) {
   for (const double b : B) z += b * power, power *= x;
   return z + B.back() * tail * power / (1 - tail * x);
 }
-double carnahan_starling(double phi) { return (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3); }
+double carnahan_starling(double phi) {
+  return (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
+}
 
 /// Z from samples of a run.
 template <int D>
@@ -27,15 +29,15 @@ Estimate pressure(int side, double phi, bool serial, int samples, std::uint64_t 
   Gas<D> gas(side, phi);
   gas.setup.serial = serial, gas.setup.seed = seed;
   MonteCarloEngine<D> engine(gas.grains, gas.setup);
-  measure::PairDistances pairs(1.5, 100);
-  engine.advance_to(600);
+  constexpr int settle = 600, between = 4;
+  measure::PairDistances pairs(1.5, 0.01, {settle, settle + between * static_cast<double>(samples), 10});
   for (int s = 0; s < samples; ++s) {
-    engine.advance_to(600 + 4 * s);
+    engine.advance_to(settle + between * s);
     pairs.add(engine.grains());
   }
-  const auto contact = pairs.contact_value();
-  const double factor = D == 2 ? 2 * phi : 4 * phi;
-  return {1 + factor * contact.mean, factor * contact.error.value_or(0)};
+  const auto contact = pairs.contact(settle);
+  CHECK(contact.phi == Approx(phi));
+  return contact.Z;
 }
 
 }  // namespace
@@ -47,6 +49,31 @@ TEST_CASE("the pressure of hard discs is that of their virial series, drawn seri
       CAPTURE(phi, serial, z.mean, *z.error, virial_discs(phi));
       CHECK(z.mean == Approx(virial_discs(phi)).epsilon(0.01));
     }
+}
+
+// Two ways to draw the trials of one and the same equilibrium.
+TEST_CASE("drawn serially and by blocks, g(r) is the same") {
+  const auto of = [](bool serial) {
+    Gas<2> gas(20, 0.6);
+    gas.setup.serial = serial, gas.setup.seed = 3;
+    MonteCarloEngine<2> engine(gas.grains, gas.setup);
+    measure::PairDistances pairs(3, 0.1, {1000, 5000, 20});
+    for (int sweep = 1000; sweep < 5000; sweep += 5) {
+      engine.advance_to(sweep);
+      pairs.add(engine.grains());
+    }
+    return pairs.result(1000);
+  };
+  const auto serial = of(true), blocks = of(false);
+  double square = 0;
+  for (std::size_t b = 0; b < serial.size(); ++b) {
+    const double error = std::hypot(*serial[b].g.error, *blocks[b].g.error);
+    CAPTURE(serial[b].r, serial[b].g.mean, blocks[b].g.mean, error);
+    CHECK(std::abs(serial[b].g.mean - blocks[b].g.mean) < 4.5 * error);
+    CHECK(error < 0.02 * serial[b].g.mean);
+    square += std::pow((serial[b].g.mean - blocks[b].g.mean) / error, 2);
+  }
+  CHECK(square / static_cast<double>(serial.size()) < 2.5);
 }
 
 TEST_CASE("the pressure of hard spheres is Carnahan's and Starling's") {

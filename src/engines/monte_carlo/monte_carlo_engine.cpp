@@ -60,6 +60,7 @@ MonteCarloEngine<D>::MonteCarloEngine(Grains<D> grains, const MonteCarloSetup<D>
     : setup_(setup),
       grains_(std::move(grains)),
       team_(threads),
+      extent_(grains_),
       delta_(setup.step),
       start_place_(grains_.position) {
   for (auto& force : no_force_) force.assign(grains_.size(), 0);

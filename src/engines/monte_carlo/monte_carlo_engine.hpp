@@ -26,7 +26,7 @@ struct MonteCarloSetup : Surroundings<D> {
   double step = 0.1;               ///< δ, the longest trial move
   std::int64_t equilibrate = 0;    ///< sweeps in which δ adapts to an acceptance of 40 %
   bool serial = false;             ///< grains drawn one by one from all; else block by block
-  std::optional<Shaking> shaking;  ///< a step is a shake; else a sweep
+  std::optional<Shaking> shaking{};  ///< a step is a shake; else a sweep
 };
 
 /// Hard grains moved by chance, thesis 2.3. A trial move is a displacement drawn evenly from a disc (ball) of radius δ. It

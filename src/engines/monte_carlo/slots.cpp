@@ -32,8 +32,8 @@ void Slots<D>::fill(const Grains<D>& grains, const Domain<D>& domain, const Exte
   const double mean =
       std::accumulate(radius_.begin(), radius_.begin() + static_cast<std::ptrdiff_t>(grains.moving), 0.0) /
       static_cast<double>(grains.moving);
-  const auto giants = std::ranges::count_if(radius_, [&](double r) { return r > giant * mean; });
-  giant_from_ = giants <= static_cast<std::ptrdiff_t>(most_giants) ? giant * mean
+  const auto giants = std::ranges::count_if(radius_, [&](double r) { return r > giant_size * mean; });
+  giant_from_ = giants <= static_cast<std::ptrdiff_t>(most_giants) ? giant_size * mean
                                                                    : std::numeric_limits<double>::infinity();
   double smallest = std::numeric_limits<double>::infinity();
   largest_ordinary_ = 0;

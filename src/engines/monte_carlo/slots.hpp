@@ -91,7 +91,7 @@ class Slots {
   /// So many grains more than twice the usual size are kept in a list of their own, because cells as wide as one intruder
   /// would hold too many of the others. With more of them cells are that wide.
   static constexpr std::size_t most_giants = 16;
-  static constexpr double giant = 2;  // in mean radii
+  static constexpr double giant_size = 2;  // in mean radii
 
   struct Giant {
     std::size_t id;
