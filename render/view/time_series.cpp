@@ -54,7 +54,7 @@ TimeSeries read_time_series(const std::filesystem::path& path, const std::vector
                                    hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint)));
     }
   TimeSeries series;
-  series.times = table.column("time");
+  series.times = table.column(table.header.front());  // the clock: time, shakes, sweeps …
   if (series.times.size() < 2)
     throw InputError(
         fmt::format("{}: {} rows, a curve needs two at least", path.string(), series.times.size()));

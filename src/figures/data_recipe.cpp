@@ -5,8 +5,8 @@
 namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
-constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv,
-                                   "peak"sv,      "profile"sv,    "series"sv};
+constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv, "peak"sv,
+                                   "profile"sv,   "series"sv,     "last"sv,    "pressure"sv};
 }  // namespace
 
 static void describe(TomlReader& a, Curve& curve) {
@@ -33,6 +33,9 @@ static void describe(TomlReader& a, Curve& curve) {
     a.value("peak", curve.peak, between(0, 100));
     a.value("bandwidth", curve.bandwidth, positive);
     a.value("widest", curve.widest, positive);
+  }
+  if (curve.extract == Extract::peak || curve.extract == Extract::last ||
+      curve.extract == Extract::pressure) {
     a.required("vary", curve.vary);
     a.required("values", curve.values);
     a.check(!curve.values.empty(), "values", "must hold at least one value");

@@ -19,7 +19,9 @@ enum class Extract {
   scatter,     ///< one column of the impacts against another, one row per impact
   peak,        ///< place (y) and width (y_err) of one peak of a column of the impacts, at `at` (x)
   profile,     ///< a column of profiles.csv (of profiles_fine.csv with `fine`) against h
-  series       ///< a column of series.csv against time
+  series,      ///< a column of series.csv against the clock
+  last,        ///< a column of series.csv at the end of the run, against `at`
+  pressure     ///< a column of pressure.csv against the packing fraction
 };
 
 /// One series of one panel: which runs, and what is taken from them.

@@ -24,7 +24,8 @@ class Impacts {
   explicit Impacts(const fs::path& run)
       : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {
     // Velocities along the line and towards it, (4.4) and (4.5) solved for v_x and v_z
-    const auto &gamma = column(fields::gamma.name), &v_n = column(fields::v_n.name), &v_t = column(fields::v_t.name);
+    const auto &gamma = column(fields::gamma.name), &v_n = column(fields::v_n.name),
+               &v_t = column(fields::v_t.name);
     read::PointArray v_x{"v_x", 1, {}}, v_z{"v_z", 1, {}};
     for (std::size_t i = 0; i < gamma.size(); ++i) {
       v_x.values.push_back(v_n[i] * std::sin(gamma[i]) + v_t[i] * std::cos(gamma[i]));
@@ -59,7 +60,8 @@ std::vector<double> joined(const Curve& curve, std::span<const fs::path> runs) {
   for (const auto& run : runs) {
     const Impacts impacts(run);
     for (const double v : impacts.column(curve.column))
-      if (std::isfinite(v)) values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));  // else unknown
+      if (std::isfinite(v))
+        values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));  // else unknown
   }
   return values;
 }
@@ -144,16 +146,16 @@ std::vector<bool> telling(const read::Table& table, const std::string& column) {
   return rows;
 }
 
-/// A column of a table against another, averaged over runs at equal x.
+/// A column of a table against another, or against the first, averaged over runs at equal x.
 std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> runs, const std::string& file,
-                                const std::string& against) {
+                                const std::string& other = "") {
   struct Values {
     std::vector<double> y, err;
   };
   std::map<double, Values> at;
   for (const auto& run : runs) {
     const auto table = read::read_table(run / file);
-    const auto x = table.column(against), y = table.column(curve.column);
+    const auto x = table.column(other.empty() ? table.header.front() : other), y = table.column(curve.column);
     const auto tells = telling(table, curve.column);
     const auto error = curve.column + "_err";
     const auto err = table.has(error) ? table.column(error) : std::vector<double>(x.size(), NAN);
@@ -167,6 +169,18 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
     rows.push_back({curve.panel, curve.series, x, mean, {}, error});
   }
   return rows;
+}
+
+/// The end of the series, averaged over runs: one point of a curve along which something varies.
+std::vector<FigureRow> last(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<double> ends;
+  for (const auto& run : runs)
+    if (const double end = read::read_table(run / "series.csv").column(curve.column).back();
+        std::isfinite(end))
+      ends.push_back(end);
+  if (ends.empty()) return {};
+  const auto [mean, error] = estimate_of(ends);
+  return {{curve.panel, curve.series, curve.at, mean, {}, error}};
 }
 
 }  // namespace
@@ -184,7 +198,11 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
     case Extract::profile:
       return averaged(curve, runs, curve.fine ? "profiles_fine.csv" : "profiles.csv", "h");
     case Extract::series:
-      return averaged(curve, runs, "series.csv", "time");
+      return averaged(curve, runs, "series.csv");
+    case Extract::last:
+      return last(curve, runs);
+    case Extract::pressure:
+      return averaged(curve, runs, "pressure.csv");
   }
   return {};
 }
