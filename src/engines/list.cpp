@@ -1,4 +1,5 @@
 #include "engines/event/event_method.hpp"
+#include "engines/hybrid/hybrid_method.hpp"
 #include "engines/monte_carlo/monte_carlo_method.hpp"
 #include "engines/restructuring/restructuring_method.hpp"
 #include "engines/soft/soft_method.hpp"
@@ -7,10 +8,14 @@
 namespace chute::engines {
 
 Catalogue<Method>& list() {
-  static Catalogue<Method> all{kind_of<Method, soft::SoftMethod>(), kind_of<Method, event::EventMethod>(),
-                               kind_of<Method, stochastic::StochasticMethod>(),
-                               kind_of<Method, restructuring::RestructuringMethod>(),
-                               kind_of<Method, monte_carlo::MonteCarloMethod>()};
+  static Catalogue<Method> all{
+      kind_of<Method, soft::SoftMethod>(),
+      kind_of<Method, event::EventMethod>(),
+      kind_of<Method, hybrid::HybridMethod>(),
+      kind_of<Method, stochastic::StochasticMethod>(),
+      kind_of<Method, restructuring::RestructuringMethod>(),
+      kind_of<Method, monte_carlo::MonteCarloMethod>(),
+  };
   return all;
 }
 

@@ -4,10 +4,12 @@
 namespace chute::measure {
 
 Catalogue<Output>& list() {
-  static Catalogue<Output> all{kind_of<Output, FramesOutput>(),   kind_of<Output, SeriesOutput>(),
-                               kind_of<Output, ProfilesOutput>(), kind_of<Output, FieldsOutput>(),
-                               kind_of<Output, ImpactsOutput>(),  kind_of<Output, ImpactHistogramsOutput>(),
-                               kind_of<Output, PairsOutput>()};
+  static Catalogue<Output> all{
+      kind_of<Output, FramesOutput>(),   kind_of<Output, SeriesOutput>(),
+      kind_of<Output, ProfilesOutput>(), kind_of<Output, FieldsOutput>(),
+      kind_of<Output, ImpactsOutput>(),  kind_of<Output, ImpactHistogramsOutput>(),
+      kind_of<Output, PairsOutput>(),
+  };
   return all;
 }
 

@@ -18,8 +18,8 @@
 #include "io/csv.hpp"
 #include "io/vtk_files.hpp"
 #include "measure/blocks.hpp"
-#include "measure/schedule.hpp"
 #include "measure/layer_sums.hpp"
+#include "measure/schedule.hpp"
 #include "measure/steadiness.hpp"
 
 /// Observers: what watches a run, and what it leaves. One file an observer, and a line in list.cpp.

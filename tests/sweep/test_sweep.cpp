@@ -2,9 +2,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "../runs/make_engine.hpp"
 #include "common/error.hpp"
 #include "folder.hpp"
-#include "../runs/make_engine.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
 #include "scene/world.hpp"
@@ -169,9 +169,10 @@ TEST_CASE("a sweep goes on with the scene as it was read, whatever happens to th
 
 TEST_CASE("boundaries that cannot be written are an error, and points that are missing are another shard's") {
   const Folder folder;
-  const Base stiff(CHUTE_SOURCE_DIR "/scenes/boundaries-ball.toml",
-                   {"grains.count=2", "run.duration=1", "sweep.axis=[{key=\"grains.size_ratio\",values=[2.25]}]",
-                    "sweep.boundary={axis={key=\"incline.sin\",from=0,to=0.1,count=2},tolerance=0.1,velocities=[0.2]}"});
+  const Base stiff(
+      CHUTE_SOURCE_DIR "/scenes/boundaries-ball.toml",
+      {"grains.count=2", "run.duration=1", "sweep.axis=[{key=\"grains.size_ratio\",values=[2.25]}]",
+       "sweep.boundary={axis={key=\"incline.sin\",from=0,to=0.1,count=2},tolerance=0.1,velocities=[0.2]}"});
   CHECK(go(stiff, folder / "a"));
   fs::remove(folder / "a/boundaries.csv");
   fs::create_directories(folder / "a/boundaries.csv/in the way");
@@ -183,7 +184,8 @@ TEST_CASE("boundaries that cannot be written are an error, and points that are m
 
 TEST_CASE("a run and a sweep give the same verdicts on independent starts") {
   const Folder folder;
-  const auto scene = scene::read_scene(ball, {"sweep=", "grains.count=4", "run.duration=8", "incline.sin=0.06"});
+  const auto scene =
+      scene::read_scene(ball, {"sweep=", "grains.count=4", "run.duration=8", "incline.sin=0.06"});
   const auto followed = follow(scene, [](double) { return true; });
   run::RunOptions options;
   options.directory = folder / "run";
