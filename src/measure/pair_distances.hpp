@@ -1,5 +1,5 @@
 #pragma once
-#include "measure/observer.hpp"
+#include "measure/outputs.hpp"
 
 namespace chute::measure {
 

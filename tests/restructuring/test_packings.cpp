@@ -46,30 +46,24 @@ void check_rests(const Deposit& deposit) {
   engine.advance_to(2);
   const auto& grains = engine.state();
   CHECK(deepest_overlap<D>(world, grains) < 1e-9);
-  std::vector<std::vector<Vec<D>>> below(grains.moving);
-  std::vector<int> on_floor(grains.moving, 0);
-  for (const auto& contact : engine.contacts()) {
-    const auto a = static_cast<std::size_t>(contact.a);
-    if (is_wall(contact.b)) {
-      ++on_floor[a];
-      CHECK(grains.position[D - 1][a] == grains.radius[a]);
-      continue;
-    }
-    const auto b = static_cast<std::size_t>(contact.b);
-    const auto way = world.domain.way(grains.place(a), grains.place(b));
-    REQUIRE(std::abs(norm(way) - grains.radius[a] - grains.radius[b]) < 1e-9);
-    // The one that was laid later is the upper one, but for large ones that lie lower than what they lie on.
-    if (way[D - 1] < 0)
-      below[a].push_back(way);
-    else
-      below[b].push_back(-1 * way);
-  }
   std::size_t unstable = 0, wrong = 0;
   for (std::size_t i = 0; i < grains.moving; ++i) {
-    if (on_floor[i]) continue;
-    if (below[i].size() != static_cast<std::size_t>(D))
+    bool on_floor = false;
+    std::vector<Vec<D>> ways;
+    for (const auto support : engine.supports(i)) {
+      if (is_wall(support)) {
+        on_floor = true;
+        CHECK(grains.position[D - 1][i] == grains.radius[i]);
+        continue;
+      }
+      const auto j = static_cast<std::size_t>(support);
+      ways.push_back(world.domain.way(grains.place(i), grains.place(j)));
+      REQUIRE(std::abs(norm(ways.back()) - grains.radius[i] - grains.radius[j]) < 1e-9);
+    }
+    if (on_floor) continue;
+    if (ways.size() != static_cast<std::size_t>(D))
       ++wrong;
-    else if (!between<D>(below[i]))
+    else if (!between<D>(ways))
       ++unstable;
   }
   CHECK(wrong == 0);

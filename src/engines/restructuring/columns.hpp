@@ -18,6 +18,11 @@ struct Placed {
   std::int32_t id = 0;
 };
 
+/// A grain on its way passes another that is nearer than the sum of their radii by less than this part; one that does not
+/// pass stops where they touch exactly. Without it rounding decides whether a grain fits into a hole of just its own
+/// width, and leaves it hanging there by the root of an ulp.
+constexpr double yielding = 1e-10;
+
 /// A ball that somebody looks into.
 template <int D>
 struct Ball {
@@ -54,11 +59,11 @@ class Columns {
                          Placed<D>& hit) const {
     double best = -std::numeric_limits<double>::infinity();
     const auto look = [&](const Placed<D>& grain) {
-      const double D_k = own + grain.radius;
-      double left = D_k * D_k;
-      for (int k = 0; k + 1 < D; ++k) left -= (place[k] - grain.place[k]) * (place[k] - grain.place[k]);
-      if (!(left > 0)) return;
-      const double height = grain.place[D - 1] + std::sqrt(left);
+      const double D_k = own + grain.radius, narrow = (1 - yielding) * D_k;
+      double aside = 0;
+      for (int k = 0; k + 1 < D; ++k) aside += (place[k] - grain.place[k]) * (place[k] - grain.place[k]);
+      if (!(narrow * narrow > aside)) return;
+      const double height = grain.place[D - 1] + std::sqrt(D_k * D_k - aside);
       if (height > best && height <= from && counts(grain)) best = height, hit = grain;
     };
     const double reach = own + largest_ordinary_;

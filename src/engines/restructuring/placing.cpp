@@ -7,8 +7,6 @@ namespace {
 
 /// Below this sine a direction is level: no way down is preferred, or a contact carries nothing.
 constexpr double level = 1e-9;
-/// Contacts within this part of the squared distance count as touching, so that rounding cannot let a grain in.
-constexpr double touch = 1e-12;
 
 template <int D>
 Vec<D> unit(const Vec<D>& v) {
@@ -195,10 +193,7 @@ std::optional<typename Placer<D>::Turn> Placer<D>::root(double a, double b, doub
 template <int D>
 std::optional<typename Placer<D>::Turn> Placer<D>::meeting(const Arc& arc, const Placed<D>& grain) const {
   const Vec<D> q = arc.centre - grain.place;
-  const double contact = reach(grain), a = 2 * arc.radius * dot(q, arc.ahead),
-               b = 2 * arc.radius * dot(q, arc.from);
-  const double c = contact * contact - arc.radius * arc.radius - dot(q, q);
-  if (c * c > a * a + b * b) return {};
+  const double a = 2 * arc.radius * dot(q, arc.ahead), b = 2 * arc.radius * dot(q, arc.from);
   for (const auto& t : touching_) {
     if (t.grain.id != grain.id || !(t.grain.place == grain.place)) continue;
     // f = a sin + b (cos − 1): it touches now, and meets it again at the other root, tan(turn/2) = a/b.
@@ -206,8 +201,12 @@ std::optional<typename Placer<D>::Turn> Placer<D>::meeting(const Arc& arc, const
     const double tan = std::max(a, 0.0) / b;
     return Turn{2 * tan / (1 + tan * tan), (1 - tan * tan) / (1 + tan * tan)};
   }
-  if (b - c < touch * contact * contact && a < 0) return Turn{};
-  return root(a, b, c);
+  const auto entry = [&](double contact) -> std::optional<Turn> {
+    const double c = contact * contact - arc.radius * arc.radius - dot(q, q);
+    return c * c > a * a + b * b ? std::nullopt : root(a, b, c);
+  };
+  const auto inside = entry((1 - yielding) * reach(grain));
+  return inside ? entry(reach(grain)) : inside;
 }
 
 /// Where the arc ends if nothing is in the way: on one at its equator, on two where one of them carries nothing.
@@ -287,6 +286,7 @@ std::optional<Rest<D>> Placer<D>::place(const Vec<D>& lateral, double radius, Ra
         falls = true, from = place_[up];
         break;
       case End::floor:
+        place_[up] = floor_ + radius_;
         return rest(true, event);
       case End::contact:
         touching_.push_back({met});

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 
 #include "core/engine.hpp"
 #include "core/world.hpp"
@@ -38,13 +39,16 @@ class RestructuringEngine final : public Engine {
   void restore(std::istream& in) override;
 
   const Grains<D>& state() const { return grains_; }
+  /// What a grain was laid on: ids, or wall_id(0) for the floor.
+  std::span<const std::int64_t> supports(std::size_t grain) const {
+    return {supports_[grain].id.data(), static_cast<std::size_t>(supports_[grain].count)};
+  }
 
  private:
   void advance(std::int64_t step) override;
   void shake();
   void lay(std::size_t i);
 
-  /// What a grain lies on: ids, and wall_id(0) for the floor.
   struct Supports {
     std::array<std::int64_t, D + 1> id{};
     int count = 0;
