@@ -66,6 +66,7 @@ inline constexpr Field wall{"wall", "wall", "", "", false};  ///< its number
 // Field data of every VTK file
 inline constexpr std::string_view time_value = "TimeValue";  ///< ParaView's own name
 inline constexpr std::string_view units = "units";           ///< "SI" or "reduced"
+inline constexpr std::string_view clock = "clock";  ///< what a file's time counts; only where that is no time
 inline constexpr std::string_view domain = "domain";    ///< x0 x1 y0 y1 z0 z1; equal ends: not periodic there
 inline constexpr std::string_view gravity = "gravity";  ///< gx gy gz in the incline's frame
 

@@ -13,6 +13,7 @@ static void describe(TomlReader& a, Curve& curve) {
   a.value("panel", curve.panel);
   a.required("series", curve.series);
   a.value("set", curve.set);
+  a.value("quick", curve.quick);
   a.value("runs", curve.runs);
   a.check(curve.runs.empty() || curve.set.empty(), "set",
           "changes a scene; runs that are there cannot be changed");

@@ -27,7 +27,8 @@ enum class Extract {
 /// One series of one panel: which runs, and what is taken from them.
 struct Curve {
   std::string panel, series;
-  std::vector<std::string> set;  ///< key=value, on top of the recipe's
+  std::vector<std::string> set;    ///< key=value, on top of the recipe's
+  std::vector<std::string> quick;  ///< and with --quick, on top of the recipe's `quick`
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;

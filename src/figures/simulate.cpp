@@ -38,7 +38,9 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
     for (std::int64_t seed = 1; seed <= (quick ? recipe.quick_seeds : recipe.seeds); ++seed) {
       auto settings = recipe.set;
       settings.insert(settings.end(), curve.set.begin(), curve.set.end());
-      if (quick) settings.insert(settings.end(), recipe.quick.begin(), recipe.quick.end());
+      if (quick)
+        for (const auto* cheaper : {&recipe.quick, &curve.quick})
+          settings.insert(settings.end(), cheaper->begin(), cheaper->end());
       settings.push_back(fmt::format("seed={}", seed));
       auto scene = scene::read_scene(scene_file, settings);
       scene.drop_output("frames");  // a figure needs none

@@ -40,11 +40,16 @@ void add_numbers(vtkPolyData* data, std::string_view name, const std::array<doub
   data->GetFieldData()->AddArray(array);
 }
 
+void add_text(vtkPolyData* data, std::string_view name, const std::string& text) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(std::string(name).c_str());
+  array->InsertNextValue(text);
+  data->GetFieldData()->AddArray(array);
+}
+
 void add_facts(vtkPolyData* data, const RunFacts& facts) {
-  vtkNew<vtkStringArray> units;
-  units->SetName(std::string(fields::units).c_str());
-  units->InsertNextValue(facts.units);
-  data->GetFieldData()->AddArray(units);
+  add_text(data, fields::units, facts.units);
+  if (facts.clock != "time") add_text(data, fields::clock, facts.clock);
   add_numbers(data, fields::domain, facts.domain);
   add_numbers(data, fields::gravity, facts.gravity);
 }

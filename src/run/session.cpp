@@ -33,6 +33,7 @@ Session::Session(const scene::Scene& scene, int threads, const std::filesystem::
   run_.made_by =
       fmt::format("units: {}; seed {}; chute {} ({})", units_of(scene), scene.seed, version, commit);
   run_.offers = scene.engine->offers();
+  run_.facts.clock = run_.offers.clock;
   run_.gravity = scene.incline.gravity;
   run_.independent = scene.grains.independent;
   run_.time_step = engine_->time_step();

@@ -118,3 +118,21 @@ TEST_CASE("scattered grains lie apart, and an intruder at the bottom") {
     for (std::size_t i = 0; i < 300; ++i) CHECK(grains.position[up][i] >= grains.radius[i]);
   }
 }
+
+TEST_CASE(
+    "frames of a run that counts no time say what it counts, and walls that a method cannot know are refused") {
+  const Folder folder;
+  run::RunOptions options;
+  options.directory = folder / "packing";
+  run::run_scene(scene::read_scene(scenes + "packing-2d.toml", small_packing()), options);
+  CHECK_THAT(content(options.directory / "frames/000001.vtp"), Catch::Contains("Name=\"clock\""));
+  const auto with_wall = [](const std::string& normal) {
+    auto settings = small_packing();
+    settings.push_back("wall=[{point=[0, -1], normal=" + normal + "}]");
+    return scene::read_scene(scenes + "packing-2d.toml", settings);
+  };
+  CHECK_NOTHROW(with_wall("[0, 2]"));
+  CHECK_THROWS_WITH(with_wall("[1, 1]"),
+                    Catch::Contains("wall[0].normal: engine.method = \"restructuring\" knows no "
+                                    "walls but a level floor"));
+}

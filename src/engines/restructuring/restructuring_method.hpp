@@ -24,7 +24,9 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
     a.value("jolt", jolt, between(0, 10),
             "largest random shift sideways before a grain falls, in mean diameters");
   }
-  Offers offers() const override { return {.contacts = true, .walls = true, .clock = "shakes"}; }
+  Offers offers() const override {
+    return {.contacts = true, .walls = true, .only_floor = true, .clock = "shakes"};
+  }
   std::optional<Refusal> refusal(const engines::Setting& setting) const override;
   double step(const engines::Setting&) const override { return 1; }
   std::vector<Fact> facts(const engines::Setting& setting) const override;
