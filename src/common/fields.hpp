@@ -66,6 +66,8 @@ inline constexpr Field wall{"wall", "wall", "", "", false};  ///< its number
 // Field data of every VTK file
 inline constexpr std::string_view time_value = "TimeValue";  ///< ParaView's own name
 inline constexpr std::string_view units = "units";           ///< "SI" or "reduced"
+/// What a series may be told against: a time, or what a method without one counts.
+inline constexpr std::array<std::string_view, 4> clocks{"time", "shakes", "sweeps", "updates"};
 inline constexpr std::string_view clock = "clock";  ///< what a file's time counts; only where that is no time
 inline constexpr std::string_view domain = "domain";    ///< x0 x1 y0 y1 z0 z1; equal ends: not periodic there
 inline constexpr std::string_view gravity = "gravity";  ///< gx gy gz in the incline's frame
