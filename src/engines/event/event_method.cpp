@@ -26,7 +26,7 @@ std::unique_ptr<Engine> made(World<D> world, const EventMethod& method, const en
 }  // namespace
 
 Offers EventMethod::offers() const {
-  return {.contacts = true, .collisions = true, .impacts = true, .walls = true};
+  return {.contacts = true, .collisions = true, .impacts = true, .independent = true, .walls = true};
 }
 
 std::vector<Fact> EventMethod::facts(const engines::Setting& s) const {
