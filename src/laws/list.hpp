@@ -117,6 +117,15 @@ inline double* friction(Shear& shear) {
       shear);
 }
 
+/// Tells laws that integrate a part of their force themselves how long a time step is.
+inline void know_time_step(ContactLaws& contact, double time_step) {
+  std::visit(
+      [&](auto& law) {
+        if constexpr (requires { law.time_step; }) law.time_step = time_step;
+      },
+      contact.shear);
+}
+
 /// The laws that a scene's keys come to.
 ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference);
 
