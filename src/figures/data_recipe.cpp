@@ -5,9 +5,16 @@
 namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
-constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv,
-                                   "peak"sv,      "profile"sv,    "series"sv};
+constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv, "peak"sv,
+                                   "profile"sv,   "series"sv,     "value"sv,   "line"sv};
 }  // namespace
+
+static void describe(TomlReader& a, Where& where) {
+  a.required("column", where.column);
+  a.value("absolute", where.absolute);
+  a.value("low", where.low);
+  a.value("high", where.high);
+}
 
 static void describe(TomlReader& a, Curve& curve) {
   a.value("panel", curve.panel);
@@ -17,11 +24,17 @@ static void describe(TomlReader& a, Curve& curve) {
   a.check(curve.runs.empty() || curve.set.empty(), "set",
           "changes a scene; runs that are there cannot be changed");
   a.choice("extract", curve.extract, extract_words);
-  a.required("column", curve.column);
+  const bool line = curve.extract == Extract::line, value = curve.extract == Extract::value;
+  if (!line) a.required("column", curve.column);
   const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
-  if (scatter) a.required("against", curve.against);
-  if (histogram) {
-    a.value("bins", curve.bins, between(2, 100000));
+  if (scatter) a.required("against", curve.against), a.value("absolute_x", curve.absolute_x);
+  if (value) a.required("file", curve.file);
+  if (histogram || scatter) a.value("file", curve.file), a.sections("where", curve.where);
+  if (histogram || value) a.value("scale", curve.scale);
+  if (line) a.required("slope", curve.slope);
+  if (histogram) a.value("over_sine", curve.over_sine), a.value("times_velocity", curve.times_velocity);
+  if (histogram) a.value("bins", curve.bins, between(2, 100000));
+  if (histogram || line) {
     a.value("range", curve.range);
     a.check(!curve.range || (curve.range->size() == 2 && (*curve.range)[0] < (*curve.range)[1]), "range",
             "must be [low, high] with low < high");
@@ -29,10 +42,13 @@ static void describe(TomlReader& a, Curve& curve) {
   if (histogram || scatter) a.value("fold", curve.fold, non_negative), a.value("absolute", curve.absolute);
   if (scatter || curve.extract == Extract::return_map) a.value("most", curve.most, at_least(1));
   if (curve.extract == Extract::profile) a.value("fine", curve.fine);
+  a.check(!line || curve.range, "range", "a line needs range = [low, high]");
   if (curve.extract == Extract::peak) {
     a.value("peak", curve.peak, between(0, 100));
     a.value("bandwidth", curve.bandwidth, positive);
     a.value("widest", curve.widest, positive);
+  }
+  if (curve.extract == Extract::peak || value) {
     a.required("vary", curve.vary);
     a.required("values", curve.values);
     a.check(!curve.values.empty(), "values", "must hold at least one value");
