@@ -27,9 +27,9 @@ double mean_velocity(const scene::Scene& scene, double from, double to) {
 
 /// A box of spheres above a smooth plane, small enough for a test.
 std::vector<std::string> small(std::vector<std::string> more = {}) {
-  more.insert(more.end(), {"grains.count=40", "domain.size=[4, 4]", "contact.normal.stiffness=2e4", "run.duration=14",
-                           "output.frames=", "output.contacts=false", "output.fields=",
-                           "output.profiles={from=12, bin=0.5, every=0.05}"});
+  more.insert(more.end(), {"grains.count=40", "domain.size=[4, 4]", "contact.normal.stiffness=2e4",
+                           "run.duration=14", "output.frames=", "output.contacts=false",
+                           "output.fields=", "output.profiles={from=12, bin=0.5, every=0.05}"});
   return more;
 }
 
@@ -50,7 +50,8 @@ std::vector<double> column(const std::filesystem::path& file, const std::string&
   REQUIRE(at < static_cast<std::ptrdiff_t>(rows[0].size()));
   std::vector<double> values;
   for (std::size_t r = 1; r < rows.size(); ++r)
-    values.push_back(rows[r].size() > static_cast<std::size_t>(at) && !rows[r][at].empty() ? std::stod(rows[r][at]) : NAN);
+    values.push_back(
+        rows[r].size() > static_cast<std::size_t>(at) && !rows[r][at].empty() ? std::stod(rows[r][at]) : NAN);
   return values;
 }
 
@@ -66,11 +67,13 @@ TEST_CASE("a ball in space that runs over a single row, at y = 0, moves as one i
       return scene::read_scene(scenes + "ball-2d.toml", settings);
     };
     const std::vector<std::string> in_space{"dimensions=3", "domain.size=[0.5, 0.2]"};
-    const double plane = mean_velocity(scene("0.1", {}), 1, 5), space = mean_velocity(scene("0.1", in_space), 1, 5);
+    const double plane = mean_velocity(scene("0.1", {}), 1, 5),
+                 space = mean_velocity(scene("0.1", in_space), 1, 5);
     CAPTURE(method, plane, space);
     CHECK(space == Approx(plane).epsilon(1e-4));
     const auto flat = make_engine(scene("0.7", {})), deep = make_engine(scene("0.7", in_space));
-    for (const auto* made : {&flat, &deep}) made->engine->advance_to(std::llround(0.2 / made->engine->time_step()));
+    for (const auto* made : {&flat, &deep})
+      made->engine->advance_to(std::llround(0.2 / made->engine->time_step()));
     const auto a = flat.engine->grains(), b = deep.engine->grains();
     CHECK(b.position[0][0] == Approx(a.position[0][0]).epsilon(1e-9));
     CHECK(b.velocity[2][0] == Approx(a.velocity[1][0]).epsilon(1e-7));
@@ -79,7 +82,8 @@ TEST_CASE("a ball in space that runs over a single row, at y = 0, moves as one i
   }
 }
 
-TEST_CASE("spheres that fall on a smooth plane come to rest, weigh what they weigh, and their account closes") {
+TEST_CASE(
+    "spheres that fall on a smooth plane come to rest, weigh what they weigh, and their account closes") {
   const Folder folder;
   run::RunOptions options;
   options.directory = folder / "run";
@@ -91,11 +95,13 @@ TEST_CASE("spheres that fall on a smooth plane come to rest, weigh what they wei
   const auto load = column(folder / "run" / "profiles.csv", "contact_zz");
   CHECK(load[0] * 16 == Approx(weight).epsilon(0.01));  // half a diameter above the plane lies no centre
   const auto eta = column(folder / "run" / "profiles.csv", "eta_exact");
-  const double volume = std::accumulate(world.grains.radius.begin(), world.grains.radius.end(), 0.0,
-                                        [](double sum, double R) { return sum + 4.0 / 3 * M_PI * R * R * R; });
+  const double volume =
+      std::accumulate(world.grains.radius.begin(), world.grains.radius.end(), 0.0,
+                      [](double sum, double R) { return sum + 4.0 / 3 * M_PI * R * R * R; });
   CHECK(std::accumulate(eta.begin(), eta.end(), 0.0) * 0.5 * 16 == Approx(volume).epsilon(0.01));
   const auto series = folder / "run" / "series.csv";
-  const auto moving = column(series, "translation"), work = column(series, "gravity_work"), residual = column(series, "residual");
+  const auto moving = column(series, "translation"), work = column(series, "gravity_work"),
+             residual = column(series, "residual");
   CHECK(moving.back() < 1e-4 * work.back());
   CHECK(std::abs(residual.back()) < 2e-3 * work.back());
 }
@@ -105,9 +111,11 @@ TEST_CASE("a ball on a smooth plane bounces to e_n^2 of its height, with soft an
     for (const int dimensions : {2, 3}) {
       const auto scene = scene::read_scene(
           scenes + "settle-3d.toml",
-          {"dimensions=" + std::to_string(dimensions), dimensions == 2 ? "domain.periodic=[\"x\"]" : "domain.periodic=[\"x\", \"y\"]",
-           "grains.count=1", "grains.diameter.std=0", "grains.start={lattice=\"none\", height=3.5}",
-           "contact.normal.stiffness=1e7", std::string("engine.method=") + method, "output.impacts={from=0}", "run.duration=7"});
+          {"dimensions=" + std::to_string(dimensions),
+           dimensions == 2 ? "domain.periodic=[\"x\"]" : "domain.periodic=[\"x\", \"y\"]", "grains.count=1",
+           "grains.diameter.std=0", "grains.start={lattice=\"none\", height=3.5}",
+           "contact.normal.stiffness=1e7", std::string("engine.method=") + method, "output.impacts={from=0}",
+           "run.duration=7"});
       const auto made = make_engine(scene);
       made.engine->collect_impacts(true);
       made.engine->advance_to(std::llround(7 / made.engine->time_step()));
@@ -115,7 +123,8 @@ TEST_CASE("a ball on a smooth plane bounces to e_n^2 of its height, with soft an
       CAPTURE(method, dimensions, impacts.size());
       REQUIRE(impacts.size() >= 3);
       CHECK(impacts[0].v_n == Approx(-std::sqrt(2 * 3.0)).epsilon(2e-3));
-      for (std::size_t k = 1; k < 3; ++k) CHECK(impacts[k].v_n == Approx(0.5 * impacts[k - 1].v_n).epsilon(0.02));
+      for (std::size_t k = 1; k < 3; ++k)
+        CHECK(impacts[k].v_n == Approx(0.5 * impacts[k - 1].v_n).epsilon(0.02));
       CHECK(impacts[0].bead == wall_id(0));
       CHECK(impacts[0].gamma == Approx(0).margin(1e-12));
     }
@@ -126,11 +135,12 @@ TEST_CASE("a ball on a smooth plane bounces to e_n^2 of its height, with soft an
 TEST_CASE("a ball on an inclined smooth plane rolls or slides as the closed form has it") {
   for (const auto& [degrees, friction] : {std::pair{20.0, 0.5}, {40.0, 0.1}}) {
     const double theta = degrees * M_PI / 180, t = 3;
-    const auto scene = scene::read_scene(
-        scenes + "settle-3d.toml",
-        {"incline.angle=" + std::to_string(degrees) + " deg", "grains.count=1", "grains.diameter.std=0",
-         "grains.start={lattice=\"none\", height=0.49999}", "contact.tangential.friction=" + std::to_string(friction),
-         "contact.normal.stiffness=1e5", "run.duration=3"});
+    const auto scene =
+        scene::read_scene(scenes + "settle-3d.toml",
+                          {"incline.angle=" + std::to_string(degrees) + " deg", "grains.count=1",
+                           "grains.diameter.std=0", "grains.start={lattice=\"none\", height=0.49999}",
+                           "contact.tangential.friction=" + std::to_string(friction),
+                           "contact.normal.stiffness=1e5", "run.duration=3"});
     const auto made = make_engine(scene);
     made.engine->advance_to(std::llround(t / made.engine->time_step()));
     const bool rolls = std::tan(theta) < 3.5 * friction;
@@ -154,7 +164,8 @@ TEST_CASE("a run of spheres is the same bytes, interrupted or not, with any numb
   const Folder folder;
   for (const char* scene_file : {"settle-3d.toml", "chute-3d.toml"}) {
     const bool chute = std::string(scene_file) == "chute-3d.toml";
-    auto settings = chute ? std::vector<std::string>{"grains.count=60", "bed.count=5", "bed.count_across=4", "run.duration=1",
+    auto settings = chute ? std::vector<std::string>{"grains.count=60",          "bed.count=5",
+                                                     "bed.count_across=4",       "run.duration=1",
                                                      "output.profiles.from=0.5", "output.fields.from=0.5"}
                           : small({"run.duration=3", "output.profiles=", "output.checkpoint=0.7"});
     if (!chute) settings.push_back("run.duration=3"), settings.push_back("output.profiles=");
@@ -217,7 +228,8 @@ TEST_CASE("a scene goes on from what another run left, with another method too")
   const auto refused = [&](const std::string& start) {
     return message<InputError>([&] { from({"grains.start={" + start + "}"}); });
   };
-  CHECK_THAT(refused("from=\"" + run + "\", frame=99"), Catch::Contains("frame: 99 is not there, the run has frames 0 to 4"));
+  CHECK_THAT(refused("from=\"" + run + "\", frame=99"),
+             Catch::Contains("frame: 99 is not there, the run has frames 0 to 4"));
   CHECK_THAT(refused("from=\"" + run + "\", time=0.3"), Catch::Contains("no frame at 0.3"));
   CHECK_THAT(refused("from=\"nowhere\""), Catch::Contains("nowhere: no such run or file"));
   write(folder / "damaged.vtp", content(folder / "first" / "frames" / "000004.vtp").substr(0, 2000));
@@ -228,12 +240,64 @@ TEST_CASE("domains say what they lack") {
   const auto refused = [&](std::vector<std::string> settings) {
     return message<InputError>([&] { scene::read_scene(scenes + "settle-3d.toml", settings); });
   };
-  CHECK_THAT(refused({"domain.size=[8]"}), Catch::Contains("domain.size: missing: how long is a period along y"));
-  CHECK_THAT(refused({"domain.periodic=[\"q\"]"}), Catch::Contains("\"q\" is no direction, allowed: x, y, z"));
+  CHECK_THAT(refused({"domain.size=[8]"}),
+             Catch::Contains("domain.size: missing: how long is a period along y"));
+  CHECK_THAT(refused({"domain.periodic=[\"q\"]"}),
+             Catch::Contains("\"q\" is no direction, allowed: x, y, z"));
   CHECK_THAT(refused({"bed={kind=\"lattice\", count=8, count_across=8}", "domain.size=[9, 8]"}),
              Catch::Contains("is not the bed's own length"));
   CHECK_THAT(refused({"dimensions=2", "bed={kind=\"lattice\", count=8, count_across=8}"}),
              Catch::Contains("it needs dimensions = 3"));
   CHECK_THAT(refused({"domain.size=[2, 8]"}), Catch::Contains("would touch its own image"));
   CHECK_THAT(refused({"engine.method=stochastic"}), Catch::Contains("knows no third dimension"));
+}
+
+// Without friction an impact pushes along the line of centres: Δv_y/Δv_x = tan φ, whatever e_n.
+TEST_CASE("a frictionless impact on a bead deflects a ball by the azimuth of where it hits") {
+  for (const char* method : {"soft", "event"}) {
+    const auto scene = scene::read_scene(
+        scenes + "ball-3d.toml",
+        {"incline.angle=0 deg", "contact.tangential={law=\"frictionless\"}", "contact.normal.stiffness=2e9",
+         "bed={kind=\"lattice\", diameter=0.001, count=40, count_across=40}",
+         "grains.start={lattice=\"none\", x=0.0203, y=0.0202, "
+         "height=0.0035, velocity=0}",
+         "run.duration=0.1", "output.impacts={from=0}", std::string("engine.method=") + method});
+    const auto made = make_engine(scene);
+    made.engine->collect_impacts(true);
+    std::vector<Impact> impacts;
+    std::array<double, 2> before{}, after{};
+    for (int k = 1; impacts.empty() && k < 1000; ++k) {
+      const auto g = made.engine->grains();
+      before = {g.velocity[0][0], g.velocity[1][0]};
+      made.engine->advance_to(made.engine->step() + 200);
+      impacts = made.engine->take_impacts();
+    }
+    REQUIRE(impacts.size() == 1);
+    const auto g = made.engine->grains();
+    after = {g.velocity[0][0], g.velocity[1][0]};
+    CAPTURE(method, impacts[0].phi);
+    CHECK((after[1] - before[1]) / (after[0] - before[0]) == Approx(std::tan(impacts[0].phi)).epsilon(1e-3));
+  }
+}
+
+// A plane has no place of its own: moved by a part of its period, with the ball, it is the same run.
+TEST_CASE("a ball does not notice where a period of the plane begins") {
+  const auto scene = scene::read_scene(
+      scenes + "ball-3d.toml",
+      {"bed.count=408", "bed.size=[0.035575, 0.013756]", "grains.size_ratio=3", "run.duration=0.4"});
+  const auto run = [&](double dx, double dy) {
+    auto world = scene::make_world<3>(scene);
+    for (std::size_t i = 0; i < world.grains.size(); ++i)
+      for (const auto& [k, shift] : {std::pair<std::size_t, double>{0, dx}, {1, dy}}) {
+        auto& x = world.grains.position[k][i];
+        x += shift;
+        const double period = world.domain.length[static_cast<int>(k)];
+        if (i >= world.grains.moving) x -= period * std::floor(x / period);
+      }
+    auto engine = scene.engine->make(std::move(world), scene::setting_of(scene), 1);
+    engine->advance_to(std::llround(0.15 / engine->time_step()));
+    return std::array{engine->grains().unwrapped(0, 0) - dx, engine->grains().unwrapped(0, 1) - dy};
+  };
+  const auto here = run(0, 0), there = run(0.35 * 0.035575, 0.61 * 0.013756);
+  for (std::size_t k = 0; k < 2; ++k) CHECK(there[k] == Approx(here[k]).margin(1e-7));
 }
