@@ -58,15 +58,18 @@ class Front {
     constexpr double rounding = 1e-9;
     for (std::size_t k = beads_.empty() ? 0 : rear(); k < beads_.size(); ++k) {
       const double reach = (bead.room + beads_[k].room) * (1 - rounding);
-      const double dx = bead.place[0] - beads_[k].place[0], dy = across(beads_[k].place[1], bead.place[1]);
+      const double dx = bead.place[0] - beads_[k].place[0];
+      if (std::abs(dx) >= reach) continue;
+      const double dy = across(beads_[k].place[1], bead.place[1]);
       if (dx * dx + dy * dy < reach * reach) return false;
     }
     return true;
   }
   /// Where a bead touches both, on the side away from the edge.
   void resting(const Bead& a, const Bead& b, double room, std::vector<Place>& gaps) const {
-    const double dx = b.place[0] - a.place[0], dy = across(a.place[1], b.place[1]);
-    const double ra = a.room + room, rb = b.room + room;
+    const double dx = b.place[0] - a.place[0], ra = a.room + room, rb = b.room + room;
+    if (std::abs(dx) >= ra + rb) return;
+    const double dy = across(a.place[1], b.place[1]);
     if (dx * dx + dy * dy >= (ra + rb) * (ra + rb)) return;
     const double d = std::sqrt(dx * dx + dy * dy);
     const double along = (d * d + ra * ra - rb * rb) / (2 * d),
