@@ -7,16 +7,14 @@
 namespace chute::image {
 
 /// When two pictures count as the same. A channel may differ by `channel` (of 255): other processors round
-/// the software renderer's arithmetic by at most 1. Ambient occlusion spreads more, so `occlusion` lets a
-/// small share of the pixels exceed that, up to `limit`. The shares and limits are measured ones; a gate on
-/// RMS or SSIM was measured to miss a radius changed by 1 %.
+/// the software renderer's arithmetic by at most 1. A share of the pixels may be allowed to exceed that, up to
+/// `limit`. A gate on RMS or SSIM was measured to miss a radius changed by 1 %.
 struct Tolerance {
   int channel = 2;
   double share = 0;  ///< share of pixels that may exceed `channel`
   int limit = 255;   ///< which none of those may exceed
 };
 inline constexpr Tolerance strict{};
-inline constexpr Tolerance occlusion{2, 2e-4, 16};
 
 struct Comparison {
   bool same_size = false;

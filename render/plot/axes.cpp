@@ -145,7 +145,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
     y += tick_descent_ + gap;
     if (!x_label_.empty()) {
       const double right_edge = frame.right + common.right;
-      const double x = std::min(frame.centre().x - x_label_.width / 2, right_edge - x_label_.width);
+      const double x = std::min(frame.centre().x() - x_label_.width / 2, right_edge - x_label_.width);
       put(Box::Kind::axis_label, x_label_, {x, y + x_line_.ascent}, 0, plot_.x.label);
     }
     if (!x_factor_.empty()) {
@@ -163,7 +163,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
     }
     if (!y_label_.empty())
       put(Box::Kind::axis_label, y_label_,
-          {frame.left - common.left + y_label_.ascent, frame.centre().y + y_label_.width / 2}, 1,
+          {frame.left - common.left + y_label_.ascent, frame.centre().y() + y_label_.width / 2}, 1,
           plot_.y.label);
     if (!y_factor_.empty())
       put(Box::Kind::factor, y_factor_, {frame.left, frame.top - gap - y_factor_.descent}, 0,

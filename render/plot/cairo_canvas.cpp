@@ -62,7 +62,7 @@ class Canvas {
 
   void draw(const GlyphRun& run) {
     cairo_save(cairo_);
-    cairo_translate(cairo_, run.origin.x, run.origin.y);
+    cairo_translate(cairo_, run.origin.x(), run.origin.y());
     cairo_rotate(cairo_, -run.angle);
     cairo_set_font_face(cairo_, cairo_face(run.face));
     cairo_set_font_size(cairo_, run.size);
@@ -70,7 +70,7 @@ class Canvas {
     std::vector<cairo_glyph_t> glyphs;
     std::vector<cairo_text_cluster_t> clusters;
     for (const auto& g : run.glyphs) {
-      glyphs.push_back({g.id, g.at.x, g.at.y});
+      glyphs.push_back({g.id, g.at.x(), g.at.y()});
       clusters.push_back({g.bytes, 1});
     }
     if (target_ == Target::pixels) {
@@ -111,14 +111,14 @@ class Canvas {
     const auto& p = path.points;
     for (auto verb : path.verbs) switch (verb) {
         case Path::Verb::move:
-          cairo_move_to(cairo, by.x + p[k].x, by.y + p[k].y), ++k;
+          cairo_move_to(cairo, by.x() + p[k].x(), by.y() + p[k].y()), ++k;
           break;
         case Path::Verb::line:
-          cairo_line_to(cairo, by.x + p[k].x, by.y + p[k].y), ++k;
+          cairo_line_to(cairo, by.x() + p[k].x(), by.y() + p[k].y()), ++k;
           break;
         case Path::Verb::cubic:
-          cairo_curve_to(cairo, by.x + p[k].x, by.y + p[k].y, by.x + p[k + 1].x, by.y + p[k + 1].y,
-                         by.x + p[k + 2].x, by.y + p[k + 2].y);
+          cairo_curve_to(cairo, by.x() + p[k].x(), by.y() + p[k].y(), by.x() + p[k + 1].x(),
+                         by.y() + p[k + 1].y(), by.x() + p[k + 2].x(), by.y() + p[k + 2].y());
           k += 3;
           break;
         case Path::Verb::close:

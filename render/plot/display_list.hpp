@@ -37,7 +37,7 @@ enum class Face : std::uint8_t { regular, italic, bold, bold_italic };
 
 struct Glyph {
   std::uint32_t id = 0;  ///< in the face
-  Point at;              ///< of its origin on the baseline, before the run is turned
+  Point at{0, 0};        ///< of its origin on the baseline, before the run is turned
   int bytes = 0;         ///< of the run's text that it stands for
 };
 
@@ -46,7 +46,7 @@ struct Glyph {
 struct GlyphRun {
   Face face = Face::regular;
   double size = 9;
-  Point origin;
+  Point origin{0, 0};
   double angle = 0;
   std::vector<Glyph> glyphs;
   std::string text;  ///< UTF-8: what a reader copies out of the PDF

@@ -12,11 +12,11 @@ Path& Path::rectangle(const Rect& r) {
 
 Path& Path::circle(Point c, double radius) {
   const double k = 0.5522847498307936 * radius;  // four cubic arcs: off by at most 0.03 % of the radius
-  move({c.x + radius, c.y});
-  cubic({c.x + radius, c.y + k}, {c.x + k, c.y + radius}, {c.x, c.y + radius});
-  cubic({c.x - k, c.y + radius}, {c.x - radius, c.y + k}, {c.x - radius, c.y});
-  cubic({c.x - radius, c.y - k}, {c.x - k, c.y - radius}, {c.x, c.y - radius});
-  cubic({c.x + k, c.y - radius}, {c.x + radius, c.y - k}, {c.x + radius, c.y});
+  move({c.x() + radius, c.y()});
+  cubic({c.x() + radius, c.y() + k}, {c.x() + k, c.y() + radius}, {c.x(), c.y() + radius});
+  cubic({c.x() - k, c.y() + radius}, {c.x() - radius, c.y() + k}, {c.x() - radius, c.y()});
+  cubic({c.x() - radius, c.y() - k}, {c.x() - k, c.y() - radius}, {c.x(), c.y() - radius});
+  cubic({c.x() + k, c.y() - radius}, {c.x() + radius, c.y() - k}, {c.x() + radius, c.y()});
   return close();
 }
 

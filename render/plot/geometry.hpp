@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -9,12 +10,7 @@ namespace chute::plot {
 
 inline constexpr double points_per_mm = 72 / 25.4;
 
-struct Point {
-  double x = 0, y = 0;
-};
-inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-inline Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
+using Point = Eigen::Vector2d;  // starts undefined, as all of Eigen's: members say {0, 0}
 
 struct Rect {
   double left = 0, top = 0, right = 0, bottom = 0;
@@ -23,7 +19,8 @@ struct Rect {
   double height() const { return bottom - top; }
   Point centre() const { return {(left + right) / 2, (top + bottom) / 2}; }
   bool contains(Point p, double margin = 0) const {
-    return p.x >= left - margin && p.x <= right + margin && p.y >= top - margin && p.y <= bottom + margin;
+    return p.x() >= left - margin && p.x() <= right + margin && p.y() >= top - margin &&
+           p.y() <= bottom + margin;
   }
   bool contains(const Rect& r) const {
     return r.left >= left && r.right <= right && r.top >= top && r.bottom <= bottom;
@@ -32,15 +29,15 @@ struct Rect {
     return left < r.right && r.left < right && top < r.bottom && r.top < bottom;
   }
   Rect grown(double by) const { return {left - by, top - by, right + by, bottom + by}; }
-  Rect moved(Point by) const { return {left + by.x, top + by.y, right + by.x, bottom + by.y}; }
+  Rect moved(Point by) const { return {left + by.x(), top + by.y(), right + by.x(), bottom + by.y()}; }
 
   static Rect nothing() {
     constexpr double inf = std::numeric_limits<double>::infinity();
     return {inf, inf, -inf, -inf};
   }
   void include(Point p) {
-    left = std::min(left, p.x), right = std::max(right, p.x);
-    top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+    left = std::min(left, p.x()), right = std::max(right, p.x());
+    top = std::min(top, p.y()), bottom = std::max(bottom, p.y());
   }
   void include(const Rect& r) { include(Point{r.left, r.top}), include(Point{r.right, r.bottom}); }
 };
@@ -76,7 +73,7 @@ struct Path {
   }
   Path& rectangle(const Rect& r);
   Path& circle(Point centre, double radius);
-  Path& append(const Path& other, Point offset = {}, double scale = 1);
+  Path& append(const Path& other, Point offset = {0, 0}, double scale = 1);
   Rect bounds() const;  ///< of all points, control points included
 
  private:

@@ -20,7 +20,7 @@ void draw_inset(Layout& out, const Inset& inset, const Rect& frame, int panel, c
   if (!at)
     throw InputError(fmt::format("an inset of {} by {} of its panel finds no room beside the texts",
                                  inset.width, inset.height));
-  const Rect outer{at->x, at->y, at->x + width, at->y + height};
+  const Rect outer{at->x(), at->y(), at->x() + width, at->y() + height};
   const auto extents = extents_of(inset.plot);
   const double shrink = std::max(0.8, smallest_type / look.tick_size);
   const TextSizes sizes{shrink * look.tick_size, shrink * look.label_size, 0.8 * gap_of(look)};

@@ -16,6 +16,10 @@
 namespace chute::plot {
 namespace {
 
+/// Where a legend finds no room among the data, an axis whose upper end is free goes on beyond them, step by step,
+/// in shares of its length; with more than half of it empty the legend stands above the frame instead.
+constexpr double headroom_step = 0.12, most_headroom = 0.5;
+
 /// One figure on its way to the page.
 class Layouter {
  public:
@@ -273,8 +277,8 @@ class Layouter {
         if (texts[i].empty()) continue;
         const Point corner =
             occupied[i].corner(texts[i].width, texts[i].ascent + texts[i].descent, inset_from_frame, *found);
-        put_heading(out, texts[i], {corner.x, corner.y + texts[i].ascent}, i);
-        occupied[i].mark_text(texts[i].box_at({corner.x, corner.y + texts[i].ascent}));
+        put_heading(out, texts[i], {corner.x(), corner.y() + texts[i].ascent}, i);
+        occupied[i].mark_text(texts[i].box_at({corner.x(), corner.y() + texts[i].ascent}));
       }
       return;
     }
@@ -326,14 +330,14 @@ class Layouter {
       if (!best) continue;
       const Point at = best->at;
       legend.block.draw(out.list, at, columns, static_cast<int>(panel), out.boxes);
-      occupied[panel].mark_text({at.x, at.y, at.x + width, at.y + height});
+      occupied[panel].mark_text({at.x(), at.y(), at.x() + width, at.y() + height});
       return;
     }
     settled_ = false;
     // higher, if the range is ours to choose; else above the frame
     const auto i = static_cast<std::size_t>(std::max(0, legend.panel));
-    if (!figure_.panels[i].y.max && !figure_.share_y && headroom_[i] < 0.47) {
-      headroom_[i] += 0.12;
+    if (!figure_.panels[i].y.max && !figure_.share_y && headroom_[i] + headroom_step < most_headroom) {
+      headroom_[i] += headroom_step;
       make_axes();
     } else {
       if (headroom_[i] > 0) {

@@ -56,18 +56,18 @@ int LegendBlock::columns_within(double room) const {
 void LegendBlock::draw(DisplayList& list, Point at, int columns, int panel, std::vector<Box>& boxes) const {
   const auto widths = column_widths(columns);
   const int n = rows(columns);
-  double x = at.x;
+  double x = at.x();
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const auto column = i / static_cast<std::size_t>(n), row = i % static_cast<std::size_t>(n);
     if (row == 0 && column > 0) x += widths[column - 1] + 2.5 * gap();
-    const double middle = at.y + (static_cast<double>(row) + 0.5) * row_height();
+    const double middle = at.y() + (static_cast<double>(row) + 0.5) * row_height();
     const auto& e = entries_[i];
     draw_sample(list, *look_, *e.series, looks_->at(e.series->name), {x, middle}, sample());
     // on a common baseline, the sample at the height of a small letter's middle
     draw_text(list, e.text, {x + sample() + gap(), middle + 0.24 * look_->legend_size}, look_->ink);
   }
   boxes.push_back(
-      {Box::Kind::legend, {at.x, at.y, at.x + width(columns), at.y + height(columns)}, panel, ""});
+      {Box::Kind::legend, {at.x(), at.y(), at.x() + width(columns), at.y() + height(columns)}, panel, ""});
 }
 
 }  // namespace chute::plot

@@ -101,15 +101,17 @@ class SeriesPainter {
   void dots() {
     if (s_.kind != Kind::dots) return;
     DotsItem item;
-    // a crowd is drawn with finer dots, or it would run together
-    const double crowd = std::clamp(std::sqrt(3000.0 / static_cast<double>(s_.x.size() + 1)), 0.62, 1.0);
+    // a crowd is drawn with finer dots, or it would run together: from 3000 dots on, which cover a tenth of a
+    // single column's frame, and not below what a printer still shows
+    constexpr double few = 3000, finest = 0.62;
+    const double crowd = std::clamp(std::sqrt(few / static_cast<double>(s_.x.size() + 1)), finest, 1.0);
     item.shape = dot_shape(crowd * p_.look.dot_radius, ink_.marker);
     item.color = ink_.color;
     for (std::size_t i = 0; i < s_.x.size(); ++i) {
       const Point at = frame_.at(s_.x[i], s_.y[i]);
       if (!frame_.rect.contains(at, 1)) continue;
       item.at.push_back(at);
-      p_.occupied.mark(Rect{at.x, at.y, at.x, at.y}.grown(p_.look.dot_radius));
+      p_.occupied.mark(Rect{at.x(), at.y(), at.x(), at.y()}.grown(p_.look.dot_radius));
     }
     if (!item.at.empty()) p_.list.items.emplace_back(std::move(item));
   }
@@ -152,7 +154,7 @@ class SeriesPainter {
   static Path dot_shape(double radius, int marker) {
     switch (marker % 3) {
       case 0:
-        return Path{}.circle({}, radius);
+        return Path{}.circle({0, 0}, radius);
       case 1:
         return marker_shape(6, 2 * radius).path;  // square
       default:
@@ -170,9 +172,9 @@ class SeriesPainter {
     const auto points = outline_of(frame_, s_);
     if (points.empty()) return;
     for (std::size_t i = 1; i + 2 < points.size(); i += 2)
-      if (!std::isnan(points[i].x))
-        p_.occupied.mark({points[i].x, std::min(points[i].y, points[0].y), points[i + 1].x,
-                          std::max(points[i].y, points[0].y)});
+      if (!std::isnan(points[i].x()))
+        p_.occupied.mark({points[i].x(), std::min(points[i].y(), points[0].y()), points[i + 1].x(),
+                          std::max(points[i].y(), points[0].y())});
   }
 
   void band() {
@@ -183,8 +185,8 @@ class SeriesPainter {
       if (upper.size() > 1) {
         p_.list.fill(polygon_inside(ring, frame_.rect), ink_.color.with_alpha(0.25));
         for (std::size_t i = 0; i + 1 < upper.size(); ++i)
-          p_.occupied.mark({upper[i].x, std::min(upper[i].y, upper[i + 1].y), upper[i + 1].x,
-                            std::max(lower[i].y, lower[i + 1].y)});
+          p_.occupied.mark({upper[i].x(), std::min(upper[i].y(), upper[i + 1].y()), upper[i + 1].x(),
+                            std::max(lower[i].y(), lower[i + 1].y())});
       }
       upper.clear(), lower.clear();
     };
@@ -193,7 +195,7 @@ class SeriesPainter {
       const bool log = frame_.y.scale == Scale::log;
       const double low = log && s_.y[i] - e <= 0 ? frame_.y.low : s_.y[i] - e;
       const Point a = frame_.at(s_.x[i], s_.y[i] + e), b = frame_.at(s_.x[i], low);
-      if (std::isnan(a.x) || std::isnan(a.y) || std::isnan(b.y))
+      if (std::isnan(a.x()) || std::isnan(a.y()) || std::isnan(b.y()))
         flush();
       else
         upper.push_back(a), lower.push_back(b);
@@ -212,15 +214,15 @@ class SeriesPainter {
       end = std::clamp(end, span.low, span.high);
       const Point a = frame_.at(s_.x[i], s_.y[i]);
       const Point b =
-          vertical ? Point{a.x, frame_.at(s_.x[i], end).y} : Point{frame_.at(end, s_.y[i]).x, a.y};
+          vertical ? Point{a.x(), frame_.at(s_.x[i], end).y()} : Point{frame_.at(end, s_.y[i]).x(), a.y()};
       path.move(a).line(b);
       p_.occupied.mark_segment(a, b, p_.look.cap);
       if (beyond) continue;  // the frame cuts it: no cap
       const double half = p_.look.cap / 2;
       if (vertical)
-        path.move({std::max(r.left, b.x - half), b.y}).line({std::min(r.right, b.x + half), b.y});
+        path.move({std::max(r.left, b.x() - half), b.y()}).line({std::min(r.right, b.x() + half), b.y()});
       else
-        path.move({b.x, std::max(r.top, b.y - half)}).line({b.x, std::min(r.bottom, b.y + half)});
+        path.move({b.x(), std::max(r.top, b.y() - half)}).line({b.x(), std::min(r.bottom, b.y() + half)});
     }
   }
 };
@@ -298,11 +300,11 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
 
 void draw_sample(DisplayList& list, const Look& look, const Series& series, const SeriesLook& ink, Point at,
                  double width) {
-  const double middle = at.x + width / 2, half = 0.32 * look.legend_size;
+  const double middle = at.x() + width / 2, half = 0.32 * look.legend_size;
   if (series.kind == Kind::bars || series.kind == Kind::band) {
     Path box;
-    box.rectangle({at.x + (series.kind == Kind::bars ? 4 : 0), at.y - half,
-                   at.x + width - (series.kind == Kind::bars ? 4 : 0), at.y + half});
+    box.rectangle({at.x() + (series.kind == Kind::bars ? 4 : 0), at.y() - half,
+                   at.x() + width - (series.kind == Kind::bars ? 4 : 0), at.y() + half});
     list.fill(box, ink.color.with_alpha(series.kind == Kind::bars ? 0.3 : 0.25));
     if (series.kind == Kind::bars)
       list.stroke(box, {0.8 * look.line_width, {}, Cap::butt, Join::miter}, ink.color);
@@ -310,18 +312,18 @@ void draw_sample(DisplayList& list, const Look& look, const Series& series, cons
   if (has_line(series.kind) || series.kind == Kind::steps) {
     const bool dashed = series.kind != Kind::both;
     Path line;
-    line.move({at.x, at.y}).line({at.x + width, at.y});
+    line.move({at.x(), at.y()}).line({at.x() + width, at.y()});
     list.stroke(line,
                 {look.line_width, dashed ? dash_pattern(ink.dash, look.line_width) : std::vector<double>{}},
                 ink.color);
   }
   if (series.kind == Kind::dots) {
     const auto shape = SeriesPainter::dot_shape(2.2 * look.dot_radius, ink.marker);
-    list.items.emplace_back(DotsItem{shape, {{middle, at.y}}, ink.color});
+    list.items.emplace_back(DotsItem{shape, {{middle, at.y()}}, ink.color});
   }
   if (has_markers(series.kind))
     SeriesPainter::draw_marker(list, look, marker_shape(ink.marker, look.marker_size), ink.color,
-                               {middle, at.y});
+                               {middle, at.y()});
 }
 
 }  // namespace chute::plot

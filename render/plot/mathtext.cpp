@@ -1,5 +1,6 @@
 #include "plot/mathtext.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,6 +15,23 @@ namespace {
 constexpr double slant = 0.28;           // of the italics, horizontal per vertical
 constexpr double script_ratio = 0.7;     // as in TeX
 constexpr double rule_thickness = 0.05;  // em
+constexpr double thinnest_rule = 0.4;    // points: a thinner one breaks up in print
+
+// Where scripts stand, in em; chosen by eye so that they neither touch their letter nor float, near what TeX does.
+constexpr double prime_raised = 0.4, super_raised = 0.36;
+constexpr double sub_lowered = 0.16, sub_lowered_under_super = 0.22;
+constexpr double below_tall = 0.05;   // a subscript's baseline under the foot of a nucleus that is no letter
+constexpr double into_tall = 0.45;    // of the script's size: how far a superscript reaches down beside such
+constexpr double sub_reaches = 0.8;   // of the height of an x: no subscript stands higher
+constexpr double super_clear = 0.25;  // of the height of an x: no superscript hangs lower
+constexpr double after_scripts = 0.05;
+
+// Fractions, roots and bars, in em: space beside, above and below their rules.
+constexpr double fraction_side = 0.08, fraction_gap = 0.13, fraction_overhang = 0.1;
+constexpr double root_gap = 0.1, root_depth = 0.15, root_side = 0.06, root_joint = 0.02;
+constexpr double accent_gap = 0.09, overline_gap = 0.1, overline_inset = 0.03;
+
+double rule(double size) { return std::max(thinnest_rule, rule_thickness * size); }
 
 double script_size(double size) { return std::min(size, std::max(script_ratio * size, smallest_type)); }
 
@@ -173,26 +191,26 @@ class Setter {
       const Line above = set(super, size, true);
       line.put(above.box, start + line.italic_correction, 0);
       end = start + line.italic_correction + above.box.width;
-      up = 0.4 * size;
+      up = prime_raised * size;
     } else if (!super.inside.empty()) {
       const Line above = set(super, small, true);
-      up = std::max({0.36 * size, letter ? 0 : line.box.ascent - 0.45 * small,
-                     above.box.descent + 0.25 * x_height() * size});
+      up = std::max({super_raised * size, letter ? 0 : line.box.ascent - into_tall * small,
+                     above.box.descent + super_clear * x_height() * size});
       line.put(above.box, start + line.italic_correction, -up);
       end = std::max(end, start + line.italic_correction + above.box.width);
       up -= above.box.descent;  // its lower edge
     }
     if (!sub.inside.empty()) {
       const Line below = set(sub, small, true);
-      double down =
-          std::max({(super.inside.empty() ? 0.16 : 0.22) * size, letter ? 0 : line.box.descent + 0.05 * small,
-                    below.box.ascent - 0.8 * x_height() * size});
+      double down = std::max({(super.inside.empty() ? sub_lowered : sub_lowered_under_super) * size,
+                              letter ? 0 : line.box.descent + below_tall * small,
+                              below.box.ascent - sub_reaches * x_height() * size});
       if (!super.inside.empty())
         down = std::max(down, below.box.ascent - up + 4 * rule_thickness * size);  // a gap between the two
       line.put(below.box, start, down);
       end = std::max(end, start + below.box.width);
     }
-    line.box.width = end + 0.05 * size;
+    line.box.width = end + after_scripts * size;
     line.italic_correction = 0, line.last_italic = false;
     return line;
   }
@@ -202,8 +220,9 @@ class Setter {
     const Line above = set(node.inside[0], small, !node.full_size),
                below = set(node.inside[1], small, !node.full_size);
     Line line;
-    const double side = 0.08 * size, thick = std::max(0.4, rule_thickness * size), gap = 0.13 * size;
-    const double inner = std::max(above.box.width, below.box.width) + 0.1 * size, middle = axis() * size;
+    const double side = fraction_side * size, thick = rule(size), gap = fraction_gap * size;
+    const double inner = std::max(above.box.width, below.box.width) + fraction_overhang * size,
+                 middle = axis() * size;
     line.put(above.box, side + (inner - above.box.width) / 2,
              -(middle + thick / 2 + gap + above.box.descent));
     line.put(below.box, side + (inner - below.box.width) / 2, -(middle - thick / 2 - gap - below.box.ascent));
@@ -216,23 +235,23 @@ class Setter {
     const Line inside = set(node.inside[0], size, script);
     const auto id = fonts_.glyph(Face::regular, 0x221a);
     const auto& sign = fonts_.metrics(Face::regular, id);
-    const double thick = std::max(0.4, rule_thickness * size), gap = 0.1 * size;
-    const double bottom = std::max(inside.box.descent, 0.15 * size);
+    const double thick = rule(size), gap = root_gap * size;
+    const double bottom = std::max(inside.box.descent, root_depth * size);
     const double top = std::max(inside.box.ascent, x_height() * size) + gap + thick;
     // the sign as a larger or smaller letter
     const double scale = std::max(smallest_type, (top + bottom) / sign.box.height());
     Line line;
     TextBox glyph;
-    glyph.runs.push_back({Face::regular, scale, {}, 0, {{id, {0, 0}, 3}}, "\u221a", {}});
+    glyph.runs.push_back({Face::regular, scale, {0, 0}, 0, {{id, {0, 0}, 3}}, "\u221a", {}});
     glyph.ink = {scale * sign.box.left, scale * sign.box.top, scale * sign.box.right,
                  scale * sign.box.bottom};
     glyph.ascent = -glyph.ink.top, glyph.descent = glyph.ink.bottom;
     line.put(glyph, 0, -top - glyph.ink.top);
     const double start = glyph.ink.right;
     line.put(inside.box, start, 0);
-    line.box.width = start + inside.box.width + inside.italic_correction + 0.06 * size;
-    line.rule({start - 0.02 * size, -top, line.box.width, -top + thick});
-    line.box.width += 0.06 * size;
+    line.box.width = start + inside.box.width + inside.italic_correction + root_side * size;
+    line.rule({start - root_joint * size, -top, line.box.width, -top + thick});
+    line.box.width += root_side * size;
     return line;
   }
 
@@ -246,12 +265,12 @@ class Setter {
     const double lean = line.last_italic ? slant * (height / 2 + 0.05 * size) : 0;
     const double x = (ink.left + ink.right) / 2 + lean - size * (m.box.left + m.box.right) / 2;
     // every accent is drawn for the height of an x in its font; some stand a little high there, some low
-    const double y = -(height + 0.09 * size) - size * m.box.bottom;
+    const double y = -(height + accent_gap * size) - size * m.box.bottom;
     TextBox mark;
     const bool bar = node.accent == 0xaf;
     const std::string text = encode_utf8(bar ? 0x304 : node.accent);
     mark.runs.push_back(
-        {Face::regular, size, {}, 0, {{id, {0, 0}, static_cast<int>(text.size())}}, text, {}});
+        {Face::regular, size, {0, 0}, 0, {{id, {0, 0}, static_cast<int>(text.size())}}, text, {}});
     mark.ink = {size * m.box.left, size * m.box.top, size * m.box.right, size * m.box.bottom};
     mark.ascent = -mark.ink.top;
     const double correction = line.italic_correction;
@@ -263,9 +282,9 @@ class Setter {
 
   Line overline(const MathNode& node, double size, bool script) {
     Line line = set(node.inside[0], size, script);
-    const double thick = std::max(0.4, rule_thickness * size);
-    const double y = -line.box.ascent - 0.1 * size;
-    line.rule({0.03 * size, y - thick, line.box.width + line.italic_correction, y});
+    const double thick = rule(size);
+    const double y = -line.box.ascent - overline_gap * size;
+    line.rule({overline_inset * size, y - thick, line.box.width + line.italic_correction, y});
     return line;
   }
 };
@@ -273,8 +292,8 @@ class Setter {
 }  // namespace
 
 Rect TextBox::box_at(Point at, int quarter_turns) const {
-  if (quarter_turns == 1) return {at.x - ascent, at.y - width, at.x + descent, at.y};
-  return {at.x, at.y - ascent, at.x + width, at.y + descent};
+  if (quarter_turns == 1) return {at.x() - ascent, at.y() - width, at.x() + descent, at.y()};
+  return {at.x(), at.y() - ascent, at.x() + width, at.y() + descent};
 }
 
 TextBox set_text(std::string_view source, double size, bool bold) {
@@ -295,8 +314,8 @@ void draw_text(DisplayList& list, const TextBox& text, Point at, Color color, do
     run.origin = at, run.angle = angle, run.color = color;
     list.items.emplace_back(std::move(run));
   }
-  const double c = std::cos(angle), s = std::sin(angle);
-  const auto turned = [&](double x, double y) { return Point{at.x + c * x + s * y, at.y - s * x + c * y}; };
+  const Eigen::Rotation2Dd turn(-angle);  // anticlockwise on a page whose y points down
+  const auto turned = [&](double x, double y) -> Point { return at + turn * Point{x, y}; };
   for (const auto& r : text.rules) {
     Path path;
     path.move(turned(r.left, r.top)).line(turned(r.right, r.top));

@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace chute::plot {
+namespace {
+
+constexpr double clearance = 1.5;  // points between a block and whatever is beside it
+
+}  // namespace
 
 Occupancy::Occupancy(const Rect& frame)
     : frame_(frame),
@@ -26,11 +31,11 @@ void Occupancy::mark(const Rect& rect) {
 }
 
 void Occupancy::mark_segment(Point a, Point b, double width) {
-  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const double length = (b - a).norm();
   const int steps = std::clamp(static_cast<int>(std::ceil(length / (cell / 2))), 1, 4000);
   for (int i = 0; i <= steps; ++i) {
     const Point p = a + (static_cast<double>(i) / steps) * (b - a);
-    mark(Rect{p.x, p.y, p.x, p.y}.grown(width / 2 + 0.01));
+    mark(Rect{p.x(), p.y(), p.x(), p.y()}.grown(width / 2 + 0.01));
   }
 }
 
@@ -55,9 +60,9 @@ std::optional<Point> Occupancy::beside_texts(double width, double height, double
     for (int i = 0; i <= steps(area.width() - width); ++i) {
       // from the right edge and the bottom, so that these corners are among the places
       const Point p{area.right - width - i * cell, area.bottom - height - j * cell};
-      const Rect block{p.x, p.y, p.x + width, p.y + height};
-      if (!clear_of_texts(block.grown(1.5))) continue;
-      const double cost = anywhere ? covered(block) : std::hypot(p.x - to.x, p.y - to.y);
+      const Rect block{p.x(), p.y(), p.x() + width, p.y() + height};
+      if (!clear_of_texts(block.grown(clearance))) continue;
+      const double cost = anywhere ? covered(block) : (p - to).norm();
       if (!best || cost < least) best = p, least = cost;
     }
   return best;
@@ -99,7 +104,7 @@ std::optional<Occupancy::Room> Occupancy::room_for(double width, double height, 
   const Rect area = frame_.grown(-inset);
   if (area.width() < width || area.height() < height) return {};
   const auto is_free = [&](Point p) {
-    return free({p.x - 1.5, p.y - 1.5, p.x + width + 1.5, p.y + height + 1.5});
+    return free(Rect{p.x(), p.y(), p.x() + width, p.y() + height}.grown(clearance));
   };
   std::optional<Room> best;
   const auto consider = [&](Point p) {
@@ -107,7 +112,7 @@ std::optional<Occupancy::Room> Occupancy::room_for(double width, double height, 
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (wanted != Place::automatic && wanted != corners[i]) continue;
       const Point c = corner(width, height, inset, corners[i]);
-      cost = std::min(cost, std::hypot(p.x - c.x, p.y - c.y) + 1.0 * static_cast<double>(i));
+      cost = std::min(cost, (p - c).norm() + 1.0 * static_cast<double>(i));
     }
     if ((!best || cost < best->from_corner) && is_free(p)) best = Room{p, cost};
   };

@@ -24,7 +24,7 @@ class Occupancy {
   bool free(const Rect& rect) const { return covered(rect) == 0; }
 
   struct Room {
-    Point at;                ///< upper left corner of the block
+    Point at{0, 0};          ///< upper left corner of the block
     double from_corner = 0;  ///< how far it is from the best corner, points
   };
   /// Room for a block of this size, `inset` away from the frame, that covers nothing and sits as near to a

@@ -7,13 +7,11 @@
 namespace chute::plot {
 namespace {
 
-double length(Point a) { return std::hypot(a.x, a.y); }
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+double cross(Point a, Point b) { return a.x() * b.y() - a.y() * b.x(); }
 
 void add_cubic(std::vector<Point>& points, Point p0, Point p1, Point p2, Point p3, double tolerance) {
   // Wang's bound: chords of n equal steps of a cubic stray by at most (6/8) max|second difference| / n^2
-  const double bend = std::max(length(p0 - 2 * p1 + p2), length(p1 - 2 * p2 + p3));
+  const double bend = std::max((p0 - 2 * p1 + p2).norm(), (p1 - 2 * p2 + p3).norm());
   const int steps = std::clamp(static_cast<int>(std::ceil(std::sqrt(0.75 * bend / tolerance))), 1, 500);
   for (int i = 1; i < steps; ++i) {
     const double t = static_cast<double>(i) / steps, s = 1 - t;
@@ -31,9 +29,9 @@ struct Piece {
 Piece distinct(const Contour& contour) {
   Piece piece{{}, contour.closed};
   for (Point p : contour.points)
-    if (piece.points.empty() || length(p - piece.points.back()) > 1e-9) piece.points.push_back(p);
+    if (piece.points.empty() || (p - piece.points.back()).norm() > 1e-9) piece.points.push_back(p);
   while (piece.closed && piece.points.size() > 1 &&
-         length(piece.points.front() - piece.points.back()) <= 1e-9)
+         (piece.points.front() - piece.points.back()).norm() <= 1e-9)
     piece.points.pop_back();
   if (piece.points.size() < 2) piece.closed = false;
   return piece;
@@ -51,7 +49,7 @@ std::vector<Piece> dashed(Piece whole, const std::vector<double>& dash) {
   Piece current{{whole.points[0]}, false};
   for (std::size_t i = 0; i + 1 < whole.points.size(); ++i) {
     const Point a = whole.points[i], b = whole.points[i + 1];
-    const double total = length(b - a);
+    const double total = (b - a).norm();
     double done = 0;
     while (total - done > left) {
       done += left;
@@ -97,7 +95,7 @@ class Pen {
     }
     const std::size_t n = p.size(), segments = piece.closed ? n : n - 1;
     for (std::size_t i = 0; i < segments; ++i) {
-      const Point a = p[i], b = p[(i + 1) % n], u = unit(a, b), side = half_ * Point{-u.y, u.x};
+      const Point a = p[i], b = p[(i + 1) % n], side = half_ * unit(a, b).unitOrthogonal();
       quad(a + side, b + side, b - side, a - side);
     }
     for (std::size_t i = piece.closed ? 0 : 1; i < (piece.closed ? n : n - 1); ++i)
@@ -110,13 +108,13 @@ class Pen {
   double half_, step_ = 0.3;
   std::vector<Point>& out_;
 
-  static Point unit(Point a, Point b) { return (1 / length(b - a)) * (b - a); }
+  static Point unit(Point a, Point b) { return (b - a).normalized(); }
   void triangle(Point a, Point b, Point c) { out_.insert(out_.end(), {a, b, c}); }
   void quad(Point a, Point b, Point c, Point d) { triangle(a, b, c), triangle(a, c, d); }
 
   void arc(Point centre, double from, double sweep) {
     const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / step_)));
-    const auto at = [&](int i) {
+    const auto at = [&](int i) -> Point {
       const double angle = from + sweep * i / steps;
       return centre + half_ * Point{std::cos(angle), std::sin(angle)};
     };
@@ -125,12 +123,12 @@ class Pen {
 
   void join(Point before, Point at, Point after) {
     const Point u = unit(before, at), v = unit(at, after);
-    const double turn = cross(u, v), along = dot(u, v);
+    const double turn = cross(u, v), along = u.dot(v);
     if (std::abs(turn) < 1e-9 && along > 0) return;
     const double outer = turn > 0 ? -1 : 1;  // the gap opens on the far side of the turn
-    const Point a = at + (outer * half_) * Point{-u.y, u.x}, b = at + (outer * half_) * Point{-v.y, v.x};
+    const Point a = at + outer * half_ * u.unitOrthogonal(), b = at + outer * half_ * v.unitOrthogonal();
     if (stroke_.join == Join::round) {
-      const double from = std::atan2(a.y - at.y, a.x - at.x);
+      const double from = std::atan2(a.y() - at.y(), a.x() - at.x());
       arc(at, from, std::atan2(turn, along));
       return;
     }
@@ -140,16 +138,16 @@ class Pen {
         std::sqrt(std::max(0.0, (1 + along) / 2));  // sin of half the angle between the lines
     if (stroke_.join != Join::miter || inner_sine * stroke_.miter_limit < 1) return;
     const Point middle = a + 0.5 * (b - a);
-    const double to_middle = length(middle - at);
+    const double to_middle = (middle - at).norm();
     if (to_middle < 1e-12 || half_angle_sine < 1e-6) return;
     triangle(a, at + (half_ / inner_sine / to_middle) * (middle - at), b);
   }
 
   void cap(Point from, Point end) {
-    const Point u = unit(from, end), side = half_ * Point{-u.y, u.x};
+    const Point u = unit(from, end), side = half_ * u.unitOrthogonal();
     if (stroke_.cap == Cap::square)
       quad(end + side, end + side + half_ * u, end - side + half_ * u, end - side);
-    if (stroke_.cap == Cap::round) arc(end, std::atan2(-side.y, -side.x), std::numbers::pi);
+    if (stroke_.cap == Cap::round) arc(end, std::atan2(-side.y(), -side.x()), std::numbers::pi);
   }
 };
 

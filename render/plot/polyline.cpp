@@ -8,18 +8,20 @@ namespace {
 
 constexpr double around = 20;  // points; more than any line's width or a mitre
 
-bool is_gap(Point p) { return std::isnan(p.x) || std::isnan(p.y); }
+bool is_gap(Point p) { return p.hasNaN(); }
 
 /// Infinite coordinates would make NaN of every difference.
-Point tamed(Point p) { return {std::clamp(p.x, -1e7, 1e7), std::clamp(p.y, -1e7, 1e7)}; }
+Point tamed(Point p) { return p.cwiseMax(-1e7).cwiseMin(1e7); }
 
 }  // namespace
 
 bool cut_segment(Point& a, Point& b, const Rect& to) {
   const Point d = b - a;
   double from = 0, until = 1;
-  const std::array<std::array<double, 2>, 4> edges{
-      {{-d.x, a.x - to.left}, {d.x, to.right - a.x}, {-d.y, a.y - to.top}, {d.y, to.bottom - a.y}}};
+  const std::array<std::array<double, 2>, 4> edges{{{-d.x(), a.x() - to.left},
+                                                    {d.x(), to.right - a.x()},
+                                                    {-d.y(), a.y() - to.top},
+                                                    {d.y(), to.bottom - a.y()}}};
   for (const auto& [p, q] : edges) {  // Liang and Barsky 1984
     if (p == 0) {
       if (q < 0) return false;
@@ -51,9 +53,9 @@ void add_polyline(Path& path, const std::vector<Point>& points, const Rect& fram
       down = false;
       continue;
     }
-    if (!down || a.x != begin.x || a.y != begin.y) path.move(a);
+    if (!down || a != begin) path.move(a);
     path.line(b);
-    down = b.x == end.x && b.y == end.y;
+    down = b == end;
   }
 }
 
@@ -65,10 +67,10 @@ Path polygon_inside(const std::vector<Point>& points, const Rect& frame) {
   // Sutherland and Hodgman 1974: against one edge after the other
   for (int edge = 0; edge < 4; ++edge) {
     const auto depth = [&](Point p) {
-      return edge == 0   ? p.x - limit.left
-             : edge == 1 ? limit.right - p.x
-             : edge == 2 ? p.y - limit.top
-                         : limit.bottom - p.y;
+      return edge == 0   ? p.x() - limit.left
+             : edge == 1 ? limit.right - p.x()
+             : edge == 2 ? p.y() - limit.top
+                         : limit.bottom - p.y();
     };
     std::vector<Point> kept;
     for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -66,10 +67,10 @@ class Compiler {
   }
   void add(const GlyphRun& run) {
     auto& fonts = Fonts::mine();
-    const double c = std::cos(run.angle), s = std::sin(run.angle);
+    const Eigen::Rotation2Dd turn(-run.angle);  // anticlockwise on a page whose y points down
     Path path;
     for (const auto& glyph : run.glyphs) path.append(fonts.outline(run.face, glyph.id), glyph.at, run.size);
-    for (auto& p : path.points) p = run.origin + Point{c * p.x + s * p.y, -s * p.x + c * p.y};
+    for (auto& p : path.points) p = run.origin + turn * p;
     fan_triangles(flatten(path, tolerance()), triangles_);
     emit(Operation::Kind::winding, run.color);
   }
@@ -94,13 +95,13 @@ class Compiler {
     for (Point p : triangles_) op.box.include(scale_ * p);
     const auto put = [&](std::size_t corner) {
       const Point q = scale_ * triangles_[corner];
-      vertices.push_back(static_cast<float>(q.x)), vertices.push_back(static_cast<float>(q.y));
+      vertices.push_back(static_cast<float>(q.x())), vertices.push_back(static_cast<float>(q.y()));
     };
     // Sorted by orientation here, so that the stencil needs no notion of sides: up first, down after.
     for (const bool clockwise : {true, false})
       for (std::size_t i = 0; i < triangles_.size(); i += 3) {
         const Point u = triangles_[i + 1] - triangles_[i], v = triangles_[i + 2] - triangles_[i];
-        if ((u.x * v.y - u.y * v.x >= 0) != clockwise) continue;
+        if ((u.x() * v.y() - u.y() * v.x() >= 0) != clockwise) continue;
         put(i), put(i + 1), put(i + 2);
         if (clockwise) op.clockwise += 3;
       }
@@ -274,9 +275,9 @@ class Raster {
   void dots(const Operation& op, const Rect& box) {
     std::vector<float> inside;
     for (Point p : op.places)
-      if (p.x + op.box.right >= box.left && p.x + op.box.left <= box.right &&
-          p.y + op.box.bottom >= box.top && p.y + op.box.top <= box.bottom)
-        inside.push_back(static_cast<float>(p.x)), inside.push_back(static_cast<float>(p.y));
+      if (p.x() + op.box.right >= box.left && p.x() + op.box.left <= box.right &&
+          p.y() + op.box.bottom >= box.top && p.y() + op.box.top <= box.bottom)
+        inside.push_back(static_cast<float>(p.x())), inside.push_back(static_cast<float>(p.y()));
     if (inside.empty()) return;
     corners(triangles_);
     gl_.glBindBuffer(GL_ARRAY_BUFFER, places_);

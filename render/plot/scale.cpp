@@ -194,7 +194,7 @@ class Ruler {
     Ticks tight, few;
     for (int exponent = top - 4; exponent <= top; ++exponent)
       for (int mantissa : {1, 2, 5}) {
-        const auto ticks = with_step(mantissa, exponent);
+        auto ticks = with_step(mantissa, exponent);
         if (ticks.major.empty()) continue;
         if (tight.major.empty() && fits(ticks.major, narrow_gap())) tight = ticks;
         if (ticks.major.size() > most_labels || !fits(ticks.major, wide_gap())) continue;

@@ -22,9 +22,9 @@ std::vector<Point> curve(const Frame& frame, const Plot& plot, const std::string
     std::vector<Point> points;
     for (std::size_t i = 0; i < s.x.size(); ++i) {
       const Point p = frame.at(s.x[i], s.y[i]);
-      if (std::isfinite(p.x) && std::isfinite(p.y)) points.push_back(p);
+      if (p.allFinite()) points.push_back(p);
     }
-    std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
+    std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x() < b.x(); });
     if (points.size() < 2)
       throw InputError(fmt::format("region: series \"{}\" has fewer than two points", name));
     return points;
@@ -36,12 +36,12 @@ std::vector<Point> curve(const Frame& frame, const Plot& plot, const std::string
 
 double height_at(const std::vector<Point>& curve, double x) {
   const auto right =
-      std::lower_bound(curve.begin(), curve.end(), x, [](Point p, double v) { return p.x < v; });
-  if (right == curve.begin()) return curve.front().y;
-  if (right == curve.end()) return curve.back().y;
+      std::lower_bound(curve.begin(), curve.end(), x, [](Point p, double v) { return p.x() < v; });
+  if (right == curve.begin()) return curve.front().y();
+  if (right == curve.end()) return curve.back().y();
   const auto left = right - 1;
-  const double t = right->x > left->x ? (x - left->x) / (right->x - left->x) : 0;
-  return left->y + t * (right->y - left->y);
+  const double t = right->x() > left->x() ? (x - left->x()) / (right->x() - left->x()) : 0;
+  return left->y() + t * (right->y() - left->y());
 }
 
 }  // namespace
@@ -51,17 +51,18 @@ void draw_region(Painter& painter, const Frame& frame, const Plot& plot, const R
   std::vector<Point> under, over;
   if (!region.above.empty()) under = curve(frame, plot, region.above);
   if (!region.below.empty()) over = curve(frame, plot, region.below);
-  const double floor = region.y_min ? frame.at(frame.x.low, *region.y_min).y : r.bottom;
-  const double ceiling = region.y_max ? frame.at(frame.x.low, *region.y_max).y : r.top;
-  double left = region.x_min ? frame.at(*region.x_min, frame.y.low).x : r.left;
-  double right = region.x_max ? frame.at(*region.x_max, frame.y.low).x : r.right;
+  const double floor = region.y_min ? frame.at(frame.x.low, *region.y_min).y() : r.bottom;
+  const double ceiling = region.y_max ? frame.at(frame.x.low, *region.y_max).y() : r.top;
+  double left = region.x_min ? frame.at(*region.x_min, frame.y.low).x() : r.left;
+  double right = region.x_max ? frame.at(*region.x_max, frame.y.low).x() : r.right;
   for (const auto* bound : {&under, &over})
-    if (!bound->empty()) left = std::max(left, bound->front().x), right = std::min(right, bound->back().x);
+    if (!bound->empty())
+      left = std::max(left, bound->front().x()), right = std::min(right, bound->back().x());
   if (!(left < right)) return;
   std::vector<double> stops{left, right};
   for (const auto* bound : {&under, &over})
     for (Point p : *bound)
-      if (p.x > left && p.x < right) stops.push_back(p.x);
+      if (p.x() > left && p.x() < right) stops.push_back(p.x());
   std::sort(stops.begin(), stops.end());
   std::vector<Point> ring;
   for (double x : stops) ring.push_back({x, under.empty() ? floor : height_at(under, x)});
@@ -113,8 +114,8 @@ std::vector<Anchor> anchors(const std::vector<Point>& points, const Rect& frame)
   double to_next = first;
   for (std::size_t i = points.size() - 1; i > 0; --i) {
     Point a = points[i - 1], b = points[i];
-    if (!std::isfinite(a.x + a.y + b.x + b.y) || !cut_segment(a, b, frame)) continue;
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!std::isfinite(a.x() + a.y() + b.x() + b.y()) || !cut_segment(a, b, frame)) continue;
+    const double length = (b - a).norm();
     const Point along = (1 / length) * (b - a);
     for (; to_next < length; to_next += step) found.push_back({b - to_next * along, along});
     to_next -= length;
@@ -132,12 +133,12 @@ void label_line(Painter& painter, const Frame& frame, const Reference& reference
   for (const bool over_ink : {false, true})
     for (const auto& [end, along] : ends)
       for (double side : {gap + text.descent, -gap - text.ascent}) {
-        const Point up{along.y, -along.x}, at = end - text.width * along + side * up;
+        const Point up{along.y(), -along.x()}, at = end - text.width * along + side * up;
         Rect box = Rect::nothing();
         for (double s : {0.0, text.width})
           for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
         if (over_ink ? !painter.occupied.clear_of_texts(box) : !painter.occupied.free(box)) continue;
-        draw_text(painter.list, text, at, painter.look.ink, std::atan2(-along.y, along.x));
+        draw_text(painter.list, text, at, painter.look.ink, std::atan2(-along.y(), along.x()));
         return painter.occupied.mark_text(box);
       }
   throw InputError(fmt::format("there is no room along its line for the label \"{}\"", reference.label));
@@ -163,8 +164,8 @@ void draw_note(Painter& painter, const Frame& frame, const Note& note) {
   if (text.width > room.width() || height > room.height())
     throw InputError(fmt::format("note \"{}\" is larger than its panel", note.text));
   // near the frame it moves in
-  const double left = std::clamp(middle.x - text.width / 2, room.left, room.right - text.width);
-  const double top = std::clamp(middle.y - height / 2, room.top, room.bottom - height);
+  const double left = std::clamp(middle.x() - text.width / 2, room.left, room.right - text.width);
+  const double top = std::clamp(middle.y() - height / 2, room.top, room.bottom - height);
   const Point at{left, top + text.ascent};
   draw_text(painter.list, text, at, painter.look.ink);
   painter.occupied.mark_text(text.box_at(at));

@@ -58,7 +58,7 @@ MarkerShape marker_shape(int index, double size) {
   Path path;
   switch (((index % marker_count) + marker_count) % marker_count) {
     case 0:
-      return {path.circle({}, r), Paint::filled};
+      return {path.circle({0, 0}, r), Paint::filled};
     case 1:
       return {polygon(4, 1.25 * r, quarter), Paint::hollow};  // squares of the circle's area
     case 2:
@@ -68,7 +68,7 @@ MarkerShape marker_shape(int index, double size) {
     case 4:
       return {polygon(3, 1.5 * r, -half), Paint::filled};
     case 5:
-      return {path.circle({}, r), Paint::hollow};
+      return {path.circle({0, 0}, r), Paint::hollow};
     case 6:
       return {polygon(4, 1.25 * r, quarter), Paint::filled};
     case 7:

@@ -25,7 +25,7 @@ std::string number(double value) {
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
 }
-std::string pair(Point p) { return fmt::format("{} {}", number(p.x), number(p.y)); }
+std::string pair(Point p) { return fmt::format("{} {}", number(p.x()), number(p.y())); }
 std::string numbers(const std::vector<double>& values) {
   std::string out;
   for (double v : values) {
@@ -120,7 +120,7 @@ class Writer {
   /// Runs that stand on one origin are one label.
   void add(const GlyphRun& run) {
     const bool same =
-        in_text_ && run.origin.x == origin_.x && run.origin.y == origin_.y && run.angle == angle_;
+        in_text_ && run.origin.x() == origin_.x() && run.origin.y() == origin_.y() && run.angle == angle_;
     if (!same) {
       end_text();
       in_text_ = true, origin_ = run.origin, angle_ = run.angle;
@@ -136,14 +136,14 @@ class Writer {
       const char32_t c = shown_character(run.face, glyph.id, run.text.substr(byte, bytes));
       byte += bytes;
       used[static_cast<std::size_t>(run.face)].insert(c);
-      const double off = std::abs(glyph.at.x - expected);
+      const double off = std::abs(glyph.at.x() - expected);
       // readers that take only the first place of a span (librsvg) still see the spaces of mathematics
-      if (!span.text.empty() && (off > 0.12 * run.size || glyph.at.y != span.y)) put(run, span);
+      if (!span.text.empty() && (off > 0.12 * run.size || glyph.at.y() != span.y)) put(run, span);
       if (!span.text.empty()) span.kerned |= off > 0.005;
-      if (span.text.empty()) span.y = glyph.at.y;
+      if (span.text.empty()) span.y = glyph.at.y();
       span.text += escaped(encode_utf8(c));
-      span.x.push_back(glyph.at.x);
-      expected = glyph.at.x + run.size * Fonts::mine().metrics(run.face, glyph.id).advance;
+      span.x.push_back(glyph.at.x());
+      expected = glyph.at.x() + run.size * Fonts::mine().metrics(run.face, glyph.id).advance;
     }
     put(run, span);
   }
@@ -154,8 +154,8 @@ class Writer {
     body += fmt::format("<defs><path id=\"dot{}\" d=\"{}\"/></defs>\n<g{}>\n", shapes_, path_data(item.shape),
                         paint("fill", item.color));
     for (Point p : item.at)
-      body +=
-          fmt::format("<use xlink:href=\"#dot{}\" x=\"{}\" y=\"{}\"/>\n", shapes_, number(p.x), number(p.y));
+      body += fmt::format("<use xlink:href=\"#dot{}\" x=\"{}\" y=\"{}\"/>\n", shapes_, number(p.x()),
+                          number(p.y()));
     body += "</g>\n";
     ++shapes_;
   }
@@ -180,7 +180,7 @@ class Writer {
 
  private:
   bool in_text_ = false;
-  Point origin_;
+  Point origin_{0, 0};
   double angle_ = 0;
   int shapes_ = 0, clips_ = 0;
   Rect clip_;

@@ -44,12 +44,40 @@ const PointArray* find_any(const std::vector<PointArray>& arrays, Names names) {
   return nullptr;
 }
 
-/// LAMMPS may write a vector as three scalars.
-void join_components(GrainFrame& frame, std::string_view name, Names names, const std::string& stem) {
+/// LAMMPS may write a vector as three scalars, whose names are a stem and x, y, z.
+struct Vector {
+  std::string_view name;
+  Names names;
+  std::string_view stem;
+};
+const Vector vectors[] = {{fields::velocity.name, velocity_names, "v"},
+                          {fields::angular_velocity.name, spin_names, "omega"},
+                          {fields::force.name, force_names, "f"}};
+
+bool has(Names names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether the file's array `name` is one of those asked for, or may be a component of it.
+bool is_wanted(std::string_view name, const std::vector<std::string>& wanted) {
+  if (wanted.empty() || has(radius_names, name) || has(diameter_names, name) || has(type_names, name))
+    return true;
+  return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& one) {
+    const bool alias = std::any_of(std::begin(groups), std::end(groups),
+                                   [&](Names group) { return has(group, one) && has(group, name); });
+    const bool part = std::any_of(std::begin(vectors), std::end(vectors), [&](const Vector& v) {
+      return v.name == one && name.size() == v.stem.size() + 1 && name.starts_with(v.stem);
+    });
+    return name == one || alias || part;
+  });
+}
+
+void join_components(GrainFrame& frame, const Vector& vector) {
+  const auto& [name, names, stem] = vector;
   if (find_any(frame.arrays, names)) return;
   const PointArray* parts[3];
   for (int c = 0; c < 3; ++c) {
-    parts[c] = find_one(frame.arrays, stem + "xyz"[c]);
+    parts[c] = find_one(frame.arrays, std::string(stem) + "xyz"[c]);
     if ((!parts[c] && c < 2) || (parts[c] && parts[c]->components != 1)) return;
   }
   PointArray joined{std::string(name), 3, {}};
@@ -68,19 +96,17 @@ std::vector<double> radii(const GrainFrame& frame, std::optional<double> given) 
     for (double& value : values) value /= 2;
     return values;
   }
-  std::vector<std::string_view> there;
-  for (const auto& array : frame.arrays) there.push_back(array.name);
-  throw InputError(
-      fmt::format("{}: no array of radii or diameters (arrays: {}); give a radius for all grains",
-                  frame.file.string(), there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", "))));
+  throw InputError(fmt::format(
+      "{}: no array of radii or diameters (arrays: {}); give a radius for all grains", frame.file.string(),
+      frame.names.empty() ? "none" : fmt::format("{}", fmt::join(frame.names, ", "))));
 }
 
 void check(const GrainFrame& frame) {
   const auto fail = [&](const std::string& what) { throw InputError(frame.file.string() + ": " + what); };
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    const double position[3] = {frame.x[i], frame.y[i], frame.z[i]};
+    const Eigen::Vector3d centre = frame.centre(i);
     for (int c = 0; c < 3; ++c)
-      if (!std::isfinite(position[c])) fail(fmt::format("point {}: {} is not a finite number", i, "xyz"[c]));
+      if (!std::isfinite(centre[c])) fail(fmt::format("point {}: {} is not a finite number", i, "xyz"[c]));
     if (!(frame.radius[i] > 0) || !std::isfinite(frame.radius[i]))
       fail(fmt::format("point {}: radius {} is not allowed, must be > 0", i, frame.radius[i]));
   }
@@ -91,7 +117,7 @@ void check(const GrainFrame& frame) {
 const PointArray* GrainFrame::find(std::string_view name) const {
   if (const auto* array = find_one(arrays, name)) return array;
   for (const Names group : groups)
-    if (std::find(group.begin(), group.end(), name) != group.end()) return find_any(arrays, group);
+    if (has(group, name)) return find_any(arrays, group);
   return nullptr;
 }
 
@@ -100,13 +126,15 @@ bool GrainFrame::is_fixed(std::size_t grain) const {
   return type && type->components == 1 && type->at(grain) == 0;
 }
 
-GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std::optional<double> radius) {
-  VtkPoints points = parse_vtk(std::move(bytes), path);
+GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std::optional<double> radius,
+                       const std::vector<std::string>& wanted) {
+  VtkPoints points =
+      parse_vtk(std::move(bytes), path, [&](std::string_view name) { return is_wanted(name, wanted); });
   GrainFrame frame;
   frame.file = path;
   if (points.x.empty()) throw InputError(path.string() + ": no points");
   frame.x = std::move(points.x), frame.y = std::move(points.y), frame.z = std::move(points.z);
-  frame.arrays = std::move(points.point_arrays);
+  frame.arrays = std::move(points.point_arrays), frame.names = std::move(points.point_names);
   for (const auto& [name, text] : points.field_texts)
     if (name == fields::units) frame.units = text;
   for (std::string_view name : {fields::time_value, std::string_view("TIME"), std::string_view("Time")})
@@ -114,13 +142,14 @@ GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std
       frame.time = time->values[0];
   if (const auto* domain = find_one(points.field_arrays, fields::domain);
       domain && domain->values.size() == 6)
-    std::copy(domain->values.begin(), domain->values.end(), frame.domain.begin());
+    for (int c = 0; c < 3; ++c) {
+      frame.domain.min()[c] = domain->values[2 * static_cast<std::size_t>(c)];
+      frame.domain.max()[c] = domain->values[2 * static_cast<std::size_t>(c) + 1];
+    }
   if (const auto* gravity = find_one(points.field_arrays, fields::gravity);
       gravity && gravity->values.size() == 3)
-    std::copy(gravity->values.begin(), gravity->values.end(), frame.gravity.begin());
-  join_components(frame, fields::velocity.name, velocity_names, "v");
-  join_components(frame, fields::angular_velocity.name, spin_names, "omega");
-  join_components(frame, fields::force.name, force_names, "f");
+    frame.gravity = Eigen::Map<const Eigen::Vector3d>(gravity->values.data());
+  for (const Vector& vector : vectors) join_components(frame, vector);
   frame.radius = radii(frame, radius);
   check(frame);
   const auto [low, high] = std::minmax_element(frame.z.begin(), frame.z.end());
@@ -128,8 +157,9 @@ GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std
   return frame;
 }
 
-GrainFrame read_frame(const std::filesystem::path& path, std::optional<double> radius) {
-  return parse_frame(read_file(path), path, radius);
+GrainFrame read_frame(const std::filesystem::path& path, std::optional<double> radius,
+                      const std::vector<std::string>& wanted) {
+  return parse_frame(read_file(path), path, radius, wanted);
 }
 
 }  // namespace chute::read

@@ -1,5 +1,5 @@
 #pragma once
-#include <array>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -24,16 +24,19 @@ struct PointArray {
 /// The grains at one time. Lengths and everything else are in the file's own units.
 struct GrainFrame {
   std::filesystem::path file;
-  std::optional<double> time;       ///< field data `TimeValue`, if the file says
-  std::string units;                ///< "SI", "reduced", or empty if the file does not say
-  int dimensions = 3;               ///< 2 if all grains lie in one plane z = const
-  std::vector<double> x, y, z;      ///< centres
-  std::vector<double> radius;       ///< > 0
-  std::vector<PointArray> arrays;   ///< every numeric point array, under the file's names
-  std::array<double, 6> domain{};   ///< x0 x1 y0 y1 z0 z1; equal ends: not periodic there, or not said
-  std::array<double, 3> gravity{};  ///< 0 if the file does not say
+  std::optional<double> time;      ///< field data `TimeValue`, if the file says
+  std::string units;               ///< "SI", "reduced", or empty if the file does not say
+  int dimensions = 3;              ///< 2 if all grains lie in one plane z = const
+  std::vector<double> x, y, z;     ///< centres
+  std::vector<double> radius;      ///< > 0
+  std::vector<PointArray> arrays;  ///< the numeric point arrays that were wanted, under the file's names
+  std::vector<std::string> names;  ///< of all point arrays in the file, also of those that were not wanted
+  /// Where its ends coincide, the file says nothing of this axis or it is not periodic.
+  Eigen::AlignedBox3d domain{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< 0 if the file does not say
 
   std::size_t size() const { return x.size(); }
+  Eigen::Vector3d centre(std::size_t grain) const { return {x[grain], y[grain], z[grain]}; }
 
   /// The array of that name, or of another name that engines give to the same thing (`velocity`: also `v`,
   /// `Velocity`, `linVel` …), or null.
@@ -42,19 +45,21 @@ struct GrainFrame {
   /// Grains glued to the bed: array `type` is 0. False for all if the file has no types.
   bool is_fixed(std::size_t grain) const;
 
-  double period(int axis) const {
-    return domain[2 * static_cast<std::size_t>(axis) + 1] - domain[2 * static_cast<std::size_t>(axis)];
-  }
+  double period(int axis) const { return domain.sizes()[axis]; }
 };
 
 /// Reads one VTK file of grains: polygonal (.vtp) or unstructured (.vtu) XML, or either as legacy .vtk; what
 /// it is is told from its content. Radii come from an array `radius`, `diameter` or another usual name for
 /// them, else from `radius`, the same for all. InputError, one line that names the file, if it is missing,
 /// cut short or not VTK, has no points, a coordinate that is not a number, no radius or one that is not > 0.
-GrainFrame read_frame(const std::filesystem::path& path, std::optional<double> radius = {});
+///
+/// `wanted` names the arrays that matter beside radius and type (chute's names stand for other engines', too);
+/// unpacking the others would take most of the time. Nothing named: all.
+GrainFrame read_frame(const std::filesystem::path& path, std::optional<double> radius = {},
+                      const std::vector<std::string>& wanted = {});
 
 /// The same from bytes that are already in memory; `path` stands for the file in messages.
 GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path,
-                       std::optional<double> radius = {});
+                       std::optional<double> radius = {}, const std::vector<std::string>& wanted = {});
 
 }  // namespace chute::read

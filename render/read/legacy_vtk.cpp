@@ -117,7 +117,7 @@ class Reader {
   void field(std::vector<PointArray>& into, bool of_points);
   void cells(int version, std::string_view keyword);
   void attribute(const std::string& keyword);
-  void take_lines();
+  void take_cells();
 };
 
 std::vector<double> Reader::values(std::size_t number, std::string_view type_name, std::string_view of) {
@@ -265,13 +265,13 @@ void Reader::attribute(const std::string& keyword) {
   data_->push_back(std::move(array));
 }
 
-void Reader::take_lines() {
+void Reader::take_cells() {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i].size() != 2) continue;
+    if (cells_[i].size() < 2) continue;
     for (const double p : cells_[i])
-      if (!(p >= 0 && p < static_cast<double>(points_))) fail("a line ends at a point that is not there");
-    result_.lines.push_back({static_cast<std::size_t>(cells_[i][0]), static_cast<std::size_t>(cells_[i][1])});
-    result_.line_cells.push_back(i);
+      if (!(p >= 0 && p < static_cast<double>(points_)))
+        fail("a line or polygon has a corner that is not there");
+    result_.cells.push_back({i, {cells_[i].begin(), cells_[i].end()}});
   }
 }
 
@@ -323,7 +323,7 @@ VtkPoints Reader::read() {
     }
   }
   if (!has_points) fail("no POINTS");
-  take_lines();
+  take_cells();
   return std::move(result_);
 }
 

@@ -134,12 +134,16 @@ std::vector<FrameFile> find_frames(const fs::path& source) {
   auto frames = frames_of(source);
   if (frames.empty())
     throw InputError(source.string() + ": no frames: no VTK file (.vtp, .vtu, .vtk) is there");
-  for (auto& frame : frames) {
-    const auto beside = frame.path.parent_path().parent_path() / "contacts" / frame.path.filename();
-    std::error_code error;
-    if (frame.path.parent_path().filename() == "frames" && fs::exists(beside, error)) frame.contacts = beside;
-  }
+  for (auto& frame : frames)
+    frame.contacts = find_beside(frame, (fs::path("contacts") / frame.path.filename()).string());
   return frames;
+}
+
+fs::path find_beside(const FrameFile& frame, std::string_view name) {
+  const auto folder = frame.path.parent_path();
+  const auto beside = folder.parent_path() / name;
+  std::error_code error;
+  return folder.filename() == "frames" && fs::exists(beside, error) ? beside : fs::path();
 }
 
 }  // namespace chute::read

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace chute::read {
@@ -25,5 +26,8 @@ std::vector<FrameFile> read_pvd(const std::filesystem::path& path);
 /// - a pattern with `*` and `?` in its last part, such as `post/dump*.vtk`.
 /// A file contacts/NAME beside frames/NAME is that frame's contact network. InputError if nothing is found.
 std::vector<FrameFile> find_frames(const std::filesystem::path& source);
+
+/// A file of the run that `frame` belongs to, such as walls.vtp; empty if there is none.
+std::filesystem::path find_beside(const FrameFile& frame, std::string_view name);
 
 }  // namespace chute::read

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkLogger.h>
@@ -11,14 +12,19 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
+#include <istream>
+#include <mutex>
 #include <new>
+#include <optional>
 #include <stdexcept>
+#include <streambuf>
 
 #include "common/error.hpp"
 #include "read/legacy_vtk.hpp"
@@ -26,6 +32,9 @@
 
 namespace chute::read {
 namespace {
+
+/// The first thing that VTK complained of while this thread read a file.
+thread_local std::string complaint;
 
 /// Where VTK sends its complaints: kept, not printed.
 class Complaints : public vtkOutputWindow {
@@ -37,10 +46,10 @@ class Complaints : public vtkOutputWindow {
   void DisplayWarningText(const char*) override {}
   void DisplayGenericWarningText(const char*) override {}
   void DisplayDebugText(const char*) override {}
-  std::string first;
 
  private:
   void keep(const char* text) {
+    std::string& first = complaint;
     if (!first.empty()) return;
     // "ERROR: In FILE, line N\nvtkClass (0x…): what is wrong\n"
     std::string_view what = text;
@@ -55,26 +64,91 @@ class Complaints : public vtkOutputWindow {
 };
 vtkStandardNewMacro(Complaints);
 
-/// Sends VTK's complaints to `kept` while it lives. Its logger would print them as well.
-struct Listening {
-  vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
-  vtkLogger::Verbosity verbosity = vtkLogger::GetCurrentVerbosityCutoff();
-  vtkNew<Complaints> kept;
+/// Sends VTK's complaints to `complaint` while one of these lives in any thread. Its logger would print them, too.
+class Listening {
+ public:
   Listening() {
-    vtkOutputWindow::SetInstance(kept);
+    complaint.clear();
+    const std::lock_guard lock(mutex_);
+    if (count_++ > 0) return;
+    before_ = vtkOutputWindow::GetInstance(), verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
+    vtkOutputWindow::SetInstance(vtkNew<Complaints>());
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   }
   ~Listening() {
-    vtkOutputWindow::SetInstance(before);
-    vtkLogger::SetStderrVerbosity(verbosity);
+    const std::lock_guard lock(mutex_);
+    if (--count_ > 0) return;
+    vtkOutputWindow::SetInstance(before_);
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    before_ = nullptr;
+  }
+
+ private:
+  static inline std::mutex mutex_;
+  static inline int count_ = 0;
+  static inline vtkSmartPointer<vtkOutputWindow> before_;
+  static inline vtkLogger::Verbosity verbosity_{};
+};
+
+using Wanted = std::function<bool(std::string_view)>;
+
+/// Bytes in memory as a stream.
+class Memory : public std::streambuf {
+ public:
+  explicit Memory(std::string& bytes) { setg(bytes.data(), bytes.data(), bytes.data() + bytes.size()); }
+
+ private:
+  pos_type seekoff(off_type by, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    const char* const base = from == std::ios_base::beg   ? eback()
+                             : from == std::ios_base::cur ? gptr()
+                                                          : egptr();
+    const off_type to = base - eback() + by;
+    if (to < 0 || to > egptr() - eback()) return pos_type(off_type(-1));
+    setg(eback(), eback() + to, egptr());
+    return to;
+  }
+  pos_type seekpos(pos_type to, std::ios_base::openmode mode) override {
+    return seekoff(to, std::ios_base::beg, mode);
   }
 };
 
+/// VTK's reader keeps two copies of a string that it reads; of a million grains these are 300 MB. This one reads
+/// where the bytes are.
 template <class Reader>
-vtkSmartPointer<vtkPointSet> read_xml(std::string& bytes) {
-  vtkNew<Reader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(bytes);
+class InPlace : public Reader {
+ public:
+  static InPlace* New() { VTK_STANDARD_NEW_BODY(InPlace); }
+  vtkAbstractTypeMacro(InPlace, Reader);
+  void read(std::string& bytes) {
+    memory_.emplace(bytes), stream_.emplace(&*memory_);
+    this->ReadFromInputStringOn();
+  }
+
+ protected:
+  int OpenVTKString() override {
+    stream_->clear();
+    stream_->seekg(0);
+    this->Stream = &*stream_;
+    return 1;
+  }
+  void CloseVTKString() override {}
+
+ private:
+  std::optional<Memory> memory_;
+  std::optional<std::istream> stream_;
+};
+
+template <class Reader>
+vtkSmartPointer<vtkPointSet> read_xml(std::string& bytes, const Wanted& wanted,
+                                      std::vector<std::string>& names) {
+  vtkNew<InPlace<Reader>> reader;
+  reader->read(bytes);
+  reader->UpdateInformation();
+  auto* arrays = reader->GetPointDataArraySelection();
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i) {
+    names.emplace_back(arrays->GetArrayName(i));
+    if (!wanted(names.back())) arrays->DisableArray(names.back().c_str());
+  }
   reader->Update();
   return reader->GetErrorCode() == 0 ? vtkPointSet::SafeDownCast(reader->GetOutputAsDataSet()) : nullptr;
 }
@@ -124,32 +198,48 @@ VtkPoints copied(vtkPointSet* set) {
     if (text && text->GetName() && text->GetNumberOfValues() > 0)
       result.field_texts.emplace_back(text->GetName(), text->GetValue(0));
   }
-  vtkNew<vtkIdList> cell;
-  for (vtkIdType i = 0; i < set->GetNumberOfCells(); ++i) {
-    set->GetCellPoints(i, cell);
-    if (cell->GetNumberOfIds() != 2) continue;
-    const auto a = static_cast<std::size_t>(cell->GetId(0)), b = static_cast<std::size_t>(cell->GetId(1));
-    if (a >= count || b >= count) throw std::runtime_error("a line ends at a point that is not there");
-    result.lines.push_back({a, b});
-    result.line_cells.push_back(static_cast<std::size_t>(i));
+  // A polygonal file of grains has a vertex for each, which come first and tell nothing.
+  auto* polygonal = vtkPolyData::SafeDownCast(set);
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType i = polygonal ? polygonal->GetNumberOfVerts() : 0; i < set->GetNumberOfCells(); ++i) {
+    set->GetCellPoints(i, corners);
+    if (corners->GetNumberOfIds() < 2) continue;
+    auto& cell = result.cells.emplace_back();
+    cell.number = static_cast<std::size_t>(i);
+    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
+      cell.corners.push_back(static_cast<std::size_t>(corners->GetId(k)));
+      if (cell.corners.back() >= count)
+        throw std::runtime_error("a line or polygon has a corner that is not there");
+    }
   }
   return result;
 }
 
 /// Throws std::runtime_error that says what is wrong.
-VtkPoints parse_xml(std::string& bytes, bool polydata) {
+VtkPoints parse_xml(std::string& bytes, bool polydata, const Wanted& wanted) {
   if (const auto fault = xml_fault(bytes); !fault.empty()) throw std::runtime_error(fault);
-  Listening listening;
-  const auto set =
-      polydata ? read_xml<vtkXMLPolyDataReader>(bytes) : read_xml<vtkXMLUnstructuredGridReader>(bytes);
-  if (!listening.kept->first.empty()) throw std::runtime_error(listening.kept->first);
+  const Listening listening;
+  std::vector<std::string> names;
+  const auto set = polydata ? read_xml<vtkXMLPolyDataReader>(bytes, wanted, names)
+                            : read_xml<vtkXMLUnstructuredGridReader>(bytes, wanted, names);
+  if (!complaint.empty()) throw std::runtime_error(complaint);
   if (!set) throw std::runtime_error("VTK cannot read it");
-  return copied(set);
+  auto result = copied(set);
+  result.point_names = std::move(names);
+  return result;
+}
+
+/// A legacy file has to be read from end to end; what is not wanted is dropped.
+VtkPoints parse_legacy(std::string_view bytes, const Wanted& wanted) {
+  auto result = parse_legacy_vtk(bytes);
+  for (const auto& array : result.point_arrays) result.point_names.push_back(array.name);
+  std::erase_if(result.point_arrays, [&](const PointArray& array) { return !wanted(array.name); });
+  return result;
 }
 
 }  // namespace
 
-VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path) {
+VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path, const Wanted& wanted) {
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   if (bytes.empty()) fail("the file is empty");
   const std::string type(xml_type(bytes));
@@ -158,7 +248,7 @@ VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path) {
   if (type.empty() && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
   VtkPoints result;
   try {
-    result = type.empty() ? parse_legacy_vtk(bytes) : parse_xml(bytes, type == "PolyData");
+    result = type.empty() ? parse_legacy(bytes, wanted) : parse_xml(bytes, type == "PolyData", wanted);
   } catch (const std::bad_alloc&) {
     fail("damaged: it asks for more memory than there is");
   } catch (const std::runtime_error& error) {

@@ -30,10 +30,10 @@ struct Order {
   std::uint64_t number;
   std::int32_t slot;
 };
-enum class Outcome : std::int32_t { drawn, kept, input_error, work_error };
+enum class Answer : std::int32_t { drawn, kept, input_error, work_error };
 struct Reply {
   std::uint64_t number;
-  Outcome outcome;
+  Answer answer;
   std::int32_t slot;
   char message[1000];
 };
@@ -83,20 +83,20 @@ struct Shared {
   while (read_all(orders, &order, sizeof order)) {
     Reply reply{};
     reply.number = order.number, reply.slot = order.slot;
-    const auto say = [&](Outcome outcome, const char* what) {
-      reply.outcome = outcome;
+    const auto say = [&](Answer answer, const char* what) {
+      reply.answer = answer;
       std::strncpy(reply.message, what, sizeof reply.message - 1);
     };
     try {
       if (!draw) draw = make_draw();
-      reply.outcome = draw(order.number, wanted, picture) ? Outcome::drawn : Outcome::kept;
+      reply.answer = draw(order.number, wanted, picture) ? Answer::drawn : Answer::kept;
       if (wanted)
         std::memcpy(pixels + static_cast<std::size_t>(order.slot) * picture_bytes, picture.rgba.data(),
                     picture_bytes);
     } catch (const InputError& error) {
-      say(Outcome::input_error, error.what());
+      say(Answer::input_error, error.what());
     } catch (const std::exception& error) {
-      say(Outcome::work_error, error.what());
+      say(Answer::work_error, error.what());
     }
     if (!write_all(replies, &reply, sizeof reply)) break;
   }
@@ -141,8 +141,8 @@ class Worker {
   Reply reply() {
     Reply reply{};
     if (!read_all(replies_, &reply, sizeof reply)) throw WorkError("a process that draws has died");
-    if (reply.outcome == Outcome::input_error) throw InputError(reply.message);
-    if (reply.outcome == Outcome::work_error) throw WorkError(reply.message);
+    if (reply.answer == Answer::input_error) throw InputError(reply.message);
+    if (reply.answer == Answer::work_error) throw WorkError(reply.message);
     return reply;
   }
   const std::uint8_t* pixels(int slot, std::size_t picture_bytes) const {
@@ -212,7 +212,7 @@ void draw_all(std::size_t count, int jobs, int width, int height, bool wanted,
     for (std::size_t w = 0; w < crew.size(); ++w) {
       if (!files[w].revents) continue;
       const Reply reply = crew[w]->reply();
-      done[reply.number] = {w, reply.slot, reply.outcome == Outcome::drawn};
+      done[reply.number] = {w, reply.slot, reply.answer == Answer::drawn};
     }
     for (auto first = done.begin(); first != done.end() && first->first == taken; first = done.begin()) {
       const Done ready = first->second;

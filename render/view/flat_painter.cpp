@@ -3,6 +3,7 @@
 
 #include "common/fields.hpp"
 #include "view/flat_scene.hpp"
+#include "view/furniture.hpp"
 #include "view/offscreen.hpp"
 #include "view/painter.hpp"
 
@@ -13,18 +14,25 @@ using plot::Point;
 using plot::Rect;
 
 constexpr double copy_alpha = 0.5;
+constexpr double impact_share = 0.09;  ///< radius of a mark where a grain was hit, in mean diameters
 
 /// From the files' plane to pixels: turned if the picture is tilted, then scaled.
 struct Map {
-  double cosine = 1, sine = 0, u0 = 0, v0 = 0, scale = 1;
+  Eigen::Rotation2Dd turn{0};
+  Point origin{0, 0};  ///< lower left corner of what is seen, in the turned plane
+  double scale = 1;
   Rect rect;
 
-  Point turned(double x, double y) const { return {cosine * x + sine * y, cosine * y - sine * x}; }
+  Point turned(double x, double y) const { return turn * Point(x, y); }
   Point operator()(double x, double y) const {
-    const Point t = turned(x, y);
-    return {rect.left + scale * (t.x - u0), rect.bottom - scale * (t.y - v0)};
+    const Point t = scale * (turned(x, y) - origin);
+    return {rect.left + t.x(), rect.bottom - t.y()};
   }
-  Point direction(double x, double y) const { return {cosine * x + sine * y, sine * x - cosine * y}; }
+  Point operator()(const Eigen::Vector3d& place) const { return (*this)(place.x(), place.y()); }
+  Point direction(double x, double y) const {
+    const Point t = turned(x, y);
+    return {t.x(), -t.y()};
+  }
 };
 
 class FlatPainter : public Painter {
@@ -35,19 +43,18 @@ class FlatPainter : public Painter {
         scene_(context_, studio.style.width, studio.style.height, studio.palette.ground,
                studio.palette.ground_alpha) {
     const auto& survey = studio_.survey;
-    const double turn = studio_.style.tilt ? survey.slope : 0;
-    map_.cosine = std::cos(turn), map_.sine = std::sin(turn);
+    map_.turn = Eigen::Rotation2Dd(studio_.style.tilt ? -survey.slope : 0);
     const auto window = seen();
-    const double width = window[1] - window[0], height = window[3] - window[2];
-    furniture = std::make_unique<Furniture>(studio_.style, survey, studio_.map, width / height);
-    map_.rect = furniture->layout().scene;
-    map_.scale = map_.rect.width() / width;
-    map_.u0 = window[0], map_.v0 = window[2];
+    const Point size = window.sizes();
+    furniture = std::make_unique<Furniture>(studio_, size.x() / size.y());
+    map_.rect = furniture->places().scene;
+    map_.scale = map_.rect.width() / size.x();
+    map_.origin = window.min();
     // arrows may reach a little beyond what was fitted
-    scene_.clip(studio_.style.camera.window ? map_.rect : map_.rect.grown(1.3 * furniture->layout().em));
+    scene_.clip(studio_.style.camera.window ? map_.rect : map_.rect.grown(1.3 * furniture->places().em));
     Directions directions;
     const auto& g = survey.gravity;
-    if (const double strength = std::hypot(g[0], g[1]); strength > 0)
+    if (const double strength = g.head<2>().norm(); strength > 0)
       directions.gravity = map_.direction(g[0] / strength, g[1] / strength);
     directions.normal = map_.direction(0, -1);
     furniture->stand(furniture->flat_scale(map_.scale), directions, studio_.arrow_length() * map_.scale);
@@ -56,12 +63,15 @@ class FlatPainter : public Painter {
   void paint(const FrameData& data, image::Image& into) override {
     scene_.clear();
     const auto colors = studio_.colors(data.frame);
+    for (const auto& wall : data.walls) add_wall(wall);
     if (studio_.style.trail) add_trails(data, colors);
     if (copies()) add_borders();
     for (const bool bed : {true, false})
       for (std::size_t i = 0; i < data.frame.size(); ++i)
-        if (studio_.is_bed(data.frame, i) == bed) add_grain(data.frame, i, colors[i]);
-    if (studio_.style.chains) add_chains(data.contacts);
+        if (studio_.is_bed(data.frame, i) == bed && !studio_.is_cut(data.frame.centre(i)))
+          add_grain(data.frame, i, colors[i]);
+    if (studio_.style.impacts) add_impacts(data.impacts);
+    if (studio_.style.chains) add_chains(data.links);
     if (studio_.style.arrows) add_arrows(data.frame);
     scene_.draw(into);
   }
@@ -72,22 +82,20 @@ class FlatPainter : public Painter {
   FlatScene scene_;
   Map map_;
 
-  double period() const { return studio_.survey.domain[1] - studio_.survey.domain[0]; }
+  double period() const { return studio_.survey.domain.sizes().x(); }
   bool copies() const { return studio_.style.copies && period() > 0; }
 
-  /// What the picture shows of the turned plane: u0 u1 v0 v1.
-  std::array<double, 4> seen() const {
-    const auto& survey = studio_.survey;
-    if (const auto& window = studio_.style.camera.window) {
-      std::array<double, 4> box{1e300, -1e300, 1e300, -1e300};
-      for (double x : {(*window)[0], (*window)[1]})
-        for (double y : {(*window)[2], (*window)[3]}) {
-          const Point p = map_.turned(x, y);
-          box = {std::min(box[0], p.x), std::max(box[1], p.x), std::min(box[2], p.y), std::max(box[3], p.y)};
-        }
-      return box;
-    }
-    return survey.turned;
+  /// What the picture shows of the turned plane.
+  Eigen::AlignedBox2d seen() const {
+    const auto& camera = studio_.style.camera;
+    if (!camera.window && !camera.follow) return studio_.survey.turned;
+    const auto& bounds = studio_.survey.bounds;
+    const auto window = camera.window.value_or(
+        std::array{bounds.min().x(), bounds.max().x(), bounds.min().y(), bounds.max().y()});
+    Eigen::AlignedBox2d box;
+    for (const double x : {window[0], window[1]})
+      for (const double y : {window[2], window[3]}) box.extend(map_.turned(x, y));
+    return box;
   }
 
   void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
@@ -123,11 +131,11 @@ class FlatPainter : public Painter {
 
   /// Where the periodic ends are.
   void add_borders() {
-    const auto& box = studio_.survey.bounds;
+    const auto &box = studio_.survey.bounds, &domain = studio_.survey.domain;
     const double dash = 0.006 * studio_.style.width;
-    for (const double x : {studio_.survey.domain[0], studio_.survey.domain[1]}) {
-      const Point from = map_(x, box[2]), to = map_(x, box[3]), along = to - from;
-      const double length = std::hypot(along.x, along.y);
+    for (const double x : {domain.min().x(), domain.max().x()}) {
+      const Point from = map_(x, box.min().y()), to = map_(x, box.max().y()), along = to - from;
+      const double length = along.norm();
       for (double at = 0; at + dash < length; at += 2 * dash)
         scene_.add(Bar{from + (at / length) * along, from + ((at + dash) / length) * along, 1, 1,
                        studio_.palette.quiet, 1, 1});
@@ -138,26 +146,44 @@ class FlatPainter : public Painter {
     const auto trail = trails(data);
     for (std::size_t i = 0; i < trail.paths.size(); ++i) {
       const auto& path = trail.paths[i];
+      if (studio_.is_cut(data.frame.centre(i))) continue;
       const double width = std::clamp(0.16 * data.frame.radius[i] * map_.scale, 1.0, 4.0);
       const double steps = static_cast<double>(studio_.style.trail);
       for (std::size_t k = 0; k + 1 < path.size(); ++k)
-        scene_.add(Bar{map_(path[k][0], path[k][1]), map_(path[k + 1][0], path[k + 1][1]), width, width,
-                       colors[i], 0.75 * (1 - static_cast<double>(k) / steps),
+        scene_.add(Bar{map_(path[k]), map_(path[k + 1]), width, width, colors[i],
+                       0.75 * (1 - static_cast<double>(k) / steps),
                        0.75 * (1 - static_cast<double>(k + 1) / steps)});
     }
   }
 
-  void add_chains(const std::vector<read::Contact>& contacts) {
+  /// A wall in the plane is a line, or several.
+  void add_wall(const read::WallPiece& wall) {
+    const double width = std::max(1.5, 0.0016 * studio_.style.width);
+    for (std::size_t i = 0; i + 1 < wall.corners.size(); ++i)
+      scene_.add(Bar{map_(wall.corners[i]), map_(wall.corners[i + 1]), width, width, studio_.palette.quiet});
+  }
+
+  void add_impacts(std::span<const read::Impact> impacts) {
+    Disc spot;
+    spot.radius = std::clamp(impact_share * studio_.survey.diameter * map_.scale, 1.2, 6.0);
+    spot.fill = spot.edge = studio_.palette.mark, spot.alpha = 0.8;
+    for (const auto& impact : impacts) {
+      spot.centre = map_(impact.place);
+      if (!studio_.is_cut(impact.place)) scene_.add(spot);
+    }
+  }
+
+  void add_chains(std::span<const read::ForceLink> links) {
     if (studio_.survey.force <= 0) return;
     const double widest = 0.42 * studio_.survey.diameter * map_.scale, L = period();
-    for (const auto& contact : contacts) {
-      const double width = widest * std::min(1.3, contact.force / studio_.survey.force);
-      if (width < 0.25) continue;
+    for (const auto& link : links) {
+      const double width = widest * std::min(strongest_link, link.force / studio_.survey.force);
+      if (width < 0.25 || studio_.is_cut(link.from) || studio_.is_cut(link.to)) continue;
       const auto draw = [&](double shift) {
-        const auto& a = contact.from;
-        double dx = contact.to[0] - a[0];
+        const auto& a = link.from;
+        double dx = link.to.x() - a.x();
         if (L > 0) dx -= L * std::round(dx / L);  // a contact through the periodic ends
-        const Bar bar{map_(a[0] + shift, a[1]), map_(a[0] + shift + dx, contact.to[1]), width, width,
+        const Bar bar{map_(a.x() + shift, a.y()), map_(a.x() + shift + dx, link.to.y()), width, width,
                       studio_.palette.ink};
         scene_.add(bar);
         Disc joint;
@@ -166,11 +192,11 @@ class FlatPainter : public Painter {
           joint.centre = end;
           if (width > 1) scene_.add(joint);
         }
-        return a[0] + dx;
+        return a.x() + dx;
       };
       const double end = draw(0);
-      if (L > 0 && end < studio_.survey.domain[0]) draw(L);
-      if (L > 0 && end > studio_.survey.domain[1]) draw(-L);
+      if (L > 0 && end < studio_.survey.domain.min().x()) draw(L);
+      if (L > 0 && end > studio_.survey.domain.max().x()) draw(-L);
     }
   }
 
@@ -181,11 +207,11 @@ class FlatPainter : public Painter {
     const double width = std::clamp(0.075 * studio_.survey.diameter * map_.scale, 1.0, 4.0);
     for (const double casing : {1.0, 0.0})  // a thin light rim first, so that arrows show on dark discs
       for (std::size_t i = 0; i < frame.size(); ++i) {
-        if (studio_.is_bed(frame, i)) continue;
+        if (studio_.is_bed(frame, i) || studio_.is_cut(frame.centre(i))) continue;
         const Point along = unit * map_.direction(velocity->at(i, 0), velocity->at(i, 1));
-        const double length = std::hypot(along.x, along.y);
+        const double length = along.norm();
         if (length < 1.5 * width) continue;
-        const Point u = (1 / length) * along, from = map_(frame.x[i], frame.y[i]), to = from + along;
+        const Point u = (1 / length) * along, from = map_(frame.centre(i)), to = from + along;
         const double head = std::min(5 * width, 0.6 * length);
         const Rgb color = casing > 0 ? studio_.palette.ground : studio_.palette.ink;
         const double alpha = casing > 0 ? 0.55 : 1, rim = casing * std::max(0.8, 0.35 * width);

@@ -159,9 +159,9 @@ void FlatScene::clear() {
 
 void FlatScene::add(const Disc& disc) {
   const auto f = [](double x) { return static_cast<float>(x); };
-  const double x = disc.centre.x, y = inside_->height - disc.centre.y, reach = disc.radius + 1;
+  const double x = disc.centre.x(), y = inside_->height - disc.centre.y(), reach = disc.radius + 1;
   if (!inside_->shows(x - reach, x + reach, y - reach, y + reach)) return;
-  const float shape[4] = {f(disc.radius), f(disc.edge_width), f(disc.mark.x), f(-disc.mark.y)};
+  const float shape[4] = {f(disc.radius), f(disc.edge_width), f(disc.mark.x()), f(-disc.mark.y())};
   const float paint[4] = {f(disc.fill.r), f(disc.fill.g), f(disc.fill.b), f(disc.alpha)};
   const float extra[4] = {f(disc.edge.r), f(disc.edge.g), f(disc.edge.b), f(disc.mark_radius)};
   const float mark[4] = {f(disc.mark_color.r), f(disc.mark_color.g), f(disc.mark_color.b), 1};
@@ -172,13 +172,14 @@ void FlatScene::add(const Disc& disc) {
 
 void FlatScene::add(const Bar& bar) {
   const auto f = [](double x) { return static_cast<float>(x); };
-  const plot::Point a{bar.from.x, inside_->height - bar.from.y}, b{bar.to.x, inside_->height - bar.to.y};
-  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const plot::Point a{bar.from.x(), inside_->height - bar.from.y()},
+      b{bar.to.x(), inside_->height - bar.to.y()};
+  const double length = (b - a).norm();
   if (!(length > 0)) return;
-  const plot::Point u = (1 / length) * (b - a), n{-u.y, u.x};
+  const plot::Point u = (b - a) / length, n = u.unitOrthogonal();
   const double reach = std::max(bar.width_from, bar.width_to) / 2 + 1.5;
-  if (!inside_->shows(std::min(a.x, b.x) - reach, std::max(a.x, b.x) + reach, std::min(a.y, b.y) - reach,
-                      std::max(a.y, b.y) + reach))
+  if (!inside_->shows(std::min(a.x(), b.x()) - reach, std::max(a.x(), b.x()) + reach,
+                      std::min(a.y(), b.y()) - reach, std::max(a.y(), b.y()) + reach))
     return;
   const float shape[4] = {f(length), f(bar.width_from / 2), f(bar.width_to / 2), -1};
   const float none[4] = {0, 0, 0, 0};
@@ -187,7 +188,7 @@ void FlatScene::add(const Bar& bar) {
     const double along = end ? length + 1 : -1, across = side * reach;
     const float paint[4] = {f(bar.color.r), f(bar.color.g), f(bar.color.b),
                             f(end ? bar.alpha_to : bar.alpha_from)};
-    inside_->corner(a.x + along * u.x + across * n.x, a.y + along * u.y + across * n.y, z,
+    inside_->corner(a.x() + along * u.x() + across * n.x(), a.y() + along * u.y() + across * n.y(), z,
                     {f(along), f(across)}, shape, paint, none, none);
   }
 }

@@ -12,19 +12,19 @@ class OffscreenContext;
 
 /// A disc in the picture; lengths and places in pixels, y down.
 struct Disc {
-  plot::Point centre;
+  plot::Point centre{0, 0};
   double radius = 1;
   Rgb fill, edge;
   double alpha = 1;
   double edge_width = 0;   ///< of the line inside the rim, 0: none
-  plot::Point mark;        ///< centre of the spin mark, from the disc's centre
+  plot::Point mark{0, 0};  ///< centre of the spin mark, from the disc's centre
   double mark_radius = 0;  ///< 0: none
   Rgb mark_color;
 };
 
 /// A straight line with square ends whose width may change evenly: a line, an arrow's head, a force.
 struct Bar {
-  plot::Point from, to;
+  plot::Point from{0, 0}, to{0, 0};
   double width_from = 1, width_to = 1;
   Rgb color;
   double alpha_from = 1, alpha_to = 1;

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "common/error.hpp"
+#include "view/following.hpp"
+#include "view/furniture.hpp"
 #include "view/painter.hpp"
 
 namespace chute::view {
@@ -23,12 +27,17 @@ void divide_by_alpha(image::Image& picture) {
 }  // namespace
 
 struct FrameRenderer::Inside {
+  Survey survey;
+  std::optional<Following> following;
   Studio studio;
   std::unique_ptr<Furniture> furniture;
   std::unique_ptr<Painter> painter;
   image::Image picture;
 
-  Inside(const FrameStyle& style, const Survey& survey) : studio(style, survey) {
+  Inside(const FrameStyle& style, const Survey& found)
+      : survey(found),
+        following(style.camera.follow ? std::optional<Following>(survey) : std::nullopt),
+        studio(style, following ? following->around_focus() : survey) {
     painter =
         survey.dimensions == 2 ? make_flat_painter(studio, furniture) : make_solid_painter(studio, furniture);
   }
@@ -38,15 +47,14 @@ FrameRenderer::FrameRenderer(const FrameStyle& style, const Survey& survey)
     : inside_(std::make_unique<Inside>(style, survey)) {}
 FrameRenderer::~FrameRenderer() = default;
 
-const image::Image& FrameRenderer::draw(const read::GrainFrame& frame, double time,
-                                        const std::vector<read::Contact>& contacts,
-                                        const std::vector<const read::GrainFrame*>& earlier) {
+const image::Image& FrameRenderer::draw(const FrameData& data) {
   auto& in = *inside_;
-  in.painter->paint({frame, contacts, earlier}, in.picture);
+  in.painter->paint(in.following ? in.following->moved(data) : data, in.picture);
   if (image::is_blank(in.picture))
-    throw WorkError(fmt::format("{}: the picture came out blank: no grain is in view", frame.file.string()));
+    throw WorkError(
+        fmt::format("{}: the picture came out blank: no grain is in view", data.frame.file.string()));
   if (in.studio.style.background == Background::transparent) divide_by_alpha(in.picture);
-  in.furniture->put_on(in.picture, time);
+  in.furniture->put_on(in.picture, data.time);
   return in.picture;
 }
 

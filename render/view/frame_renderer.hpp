@@ -1,11 +1,8 @@
 #pragma once
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "image/image.hpp"
-#include "read/contacts.hpp"
-#include "read/grain_frame.hpp"
+#include "view/frame_data.hpp"
 #include "view/frame_style.hpp"
 #include "view/survey.hpp"
 
@@ -20,12 +17,8 @@ class FrameRenderer {
   FrameRenderer(const FrameStyle& style, const Survey& survey);
   ~FrameRenderer();
 
-  /// `contacts` for style.chains; `earlier` frames, the oldest first, for style.trail. WorkError if the
-  /// picture came out blank, which only a broken graphics library does. The picture is valid until the next
-  /// call.
-  const image::Image& draw(const read::GrainFrame& frame, double time,
-                           const std::vector<read::Contact>& contacts = {},
-                           const std::vector<const read::GrainFrame*>& earlier = {});
+  /// WorkError if the picture came out blank: nothing is in view. The picture is valid until the next call.
+  const image::Image& draw(const FrameData& data);
 
  private:
   struct Inside;

@@ -27,6 +27,9 @@ void FrameStyle::check() const {
           fmt::format("camera zoom {}: must be in (0.01, 100)", camera.zoom));
   require(std::abs(camera.elevation) <= 90,
           fmt::format("camera elevation {}: must be in [-90, 90]", camera.elevation));
+  for (const Cut& cut : cuts)
+    require(cut.axis >= 0 && cut.axis < 3 && std::isfinite(cut.value),
+            "cut: needs a finite place on x, y or z");
   require(trail >= 0 && trail <= 1000, fmt::format("trail of {} frames: must be in [0, 1000]", trail));
 }
 
@@ -37,19 +40,28 @@ std::string FrameStyle::describe() const {
   if (camera.window)
     text += fmt::format(" window={}:{}:{}:{}", (*camera.window)[0], (*camera.window)[1], (*camera.window)[2],
                         (*camera.window)[3]);
+  if (camera.follow)
+    text += camera.follow->id ? fmt::format(" follow={}", *camera.follow->id) : std::string(" follow=mean");
+  for (const Cut& cut : cuts) text += fmt::format(" cut={}{}{}", cut.axis, cut.above ? '>' : '<', cut.value);
   return text + fmt::format(
-                    " eye={}:{}:{} tilt={:d} arrows={:d} chains={:d} copies={:d} occlusion={:d} spin={:d} "
-                    "furniture={:d} trail={}",
-                    camera.azimuth, camera.elevation, camera.zoom, tilt, arrows, chains, copies, occlusion,
-                    spin, furniture, trail);
+                    " eye={}:{}:{} tilt={:d} arrows={:d} chains={:d} copies={:d} impacts={:d} occlusion={:d} "
+                    "outlines={:d} floor={:d} box={:d} spin={:d} furniture={:d} trail={}",
+                    camera.azimuth, camera.elevation, camera.zoom, tilt, arrows, chains, copies, impacts,
+                    occlusion, outlines, floor, box, spin, furniture, trail);
 }
 
 Palette palette_of(Background background) {
+  constexpr Rgb vermilion{.84, .37, 0};  // Okabe and Ito's, which no colour map here contains
   constexpr auto gray = [](double level) { return Rgb{level, level, level}; };
   if (background == Background::dark)
-    return {{.071, .078, .094}, gray(.93), gray(.55), {.27, .28, .31}, {.55, .66, .78}, 1};
-  return {gray(1),   gray(.10),       gray(.55),
-          gray(.80), {.42, .55, .68}, background == Background::white ? 1. : 0.};
+    return {{.071, .078, .094}, gray(.93), gray(.55), {.27, .28, .31}, {.55, .66, .78}, vermilion, 1};
+  return {gray(1),
+          gray(.10),
+          gray(.55),
+          gray(.80),
+          {.42, .55, .68},
+          vermilion,
+          background == Background::white ? 1. : 0.};
 }
 
 }  // namespace chute::view

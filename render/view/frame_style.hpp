@@ -1,14 +1,21 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "view/color_map.hpp"
 
 namespace chute::view {
 
 enum class Background { white, dark, transparent };
+
+/// A camera that goes along the slope with a grain, or with the mean of all that move.
+struct Follow {
+  std::optional<long long> id;  ///< of the grain; none: the mean
+};
 
 /// From where the grains are seen.
 struct Camera {
@@ -18,6 +25,17 @@ struct Camera {
   /// looks up the slope at what comes down; elevation is above the incline's plane.
   double azimuth = 30, elevation = 22;
   double zoom = 1;  ///< 3D: > 1 is nearer than what shows the whole run
+  /// Places then count from what is followed, along the slope and along what is periodic; else the camera stands.
+  std::optional<Follow> follow;
+};
+
+/// A half space in which nothing is drawn: what lies beyond `value` on an axis of the files.
+struct Cut {
+  int axis = 0;
+  bool above = true;  ///< greater values are cut away, else smaller ones
+  double value = 0;
+
+  bool hides(const Eigen::Vector3d& place) const { return above ? place[axis] > value : place[axis] < value; }
 };
 
 /// How frames look. The same style and data give the same pixels.
@@ -33,10 +51,15 @@ struct FrameStyle {
   bool arrows = false;     ///< velocity arrows
   bool chains = false;     ///< contact forces as lines, wide where the force is large
   bool copies = false;     ///< faded copies beyond the periodic ends
+  bool impacts = false;    ///< marks where grains of the bed were hit so far
   bool occlusion = false;  ///< 3D: ambient occlusion
-  bool spin = true;        ///< 2D: a mark on every disc that turns with it
+  bool outlines = false;   ///< 3D: a dark line inside the rim of every grain
+  bool floor = false;      ///< 3D: shadows on a plane below
+  bool box = false;        ///< 3D: edges of the periodic box, or of the box of all grains
+  bool spin = true;        ///< marks that turn with the grains
   bool furniture = true;   ///< colour bar, time, scale bar, gravity
   int trail = 0;           ///< earlier frames whose positions are drawn as a trail
+  std::vector<Cut> cuts;   ///< grains whose centres lie in one of them are left out
   Camera camera;
 
   /// InputError if a value is out of bounds (sizes from 64 to 8192, range LOW < HIGH …).
@@ -48,6 +71,7 @@ struct FrameStyle {
 /// Ground and inks that go with a background.
 struct Palette {
   Rgb ground, ink, quiet, bed, plain;
+  Rgb mark;  ///< of what is pointed at: where grains were hit
   double ground_alpha;
 };
 Palette palette_of(Background background);

@@ -41,9 +41,9 @@ Path segment(Point a, Point b) { return Path().move(a).line(b); }
 /// A line that ends in a slender head.
 void draw_arrow(DisplayList& list, Point from, Point to, double width, double head, Color color) {
   const Point along = to - from;
-  const double length = std::hypot(along.x, along.y);
+  const double length = along.norm();
   if (length <= 0) return;
-  const Point u = (1 / length) * along, n{-u.y, u.x};
+  const Point u = along / length, n = u.unitOrthogonal();
   head = std::min(head, 0.6 * length);
   const Point neck = to - head * u, bite = to - 0.8 * head * u;
   list.stroke(segment(from, bite), {width, {}, plot::Cap::butt, plot::Join::miter, 4}, color);
@@ -55,7 +55,7 @@ Path arc(Point centre, double radius, double from, double to) {
   constexpr int steps = 24;
   for (int i = 0; i <= steps; ++i) {
     const double a = from + (to - from) * i / steps;
-    const Point p{centre.x + radius * std::cos(a), centre.y + radius * std::sin(a)};
+    const Point p{centre.x() + radius * std::cos(a), centre.y() + radius * std::sin(a)};
     i ? path.line(p) : path.move(p);
   }
   return path;
@@ -73,6 +73,8 @@ std::string degrees_text(double radians) {
   const double degrees = std::abs(radians) * 180 / std::numbers::pi;
   return fmt::format("{:g}", std::round(degrees * 10) / 10);
 }
+
+std::string kind_label(long long kind) { return fmt::format("${}$", kind); }
 
 }  // namespace
 
@@ -105,33 +107,57 @@ std::string length_text(double length, const std::string& units) {
   return fmt::format("{:g} m", length);
 }
 
-Furniture::Furniture(const FrameStyle& style, const Survey& survey, const ColorMap& map, double aspect)
-    : style_(style),
-      survey_(survey),
-      map_(map),
-      palette_(palette_of(style.background)),
-      title_(survey.field.title(survey.units)) {
+Furniture::Furniture(const Studio& studio, double aspect)
+    : studio_(studio),
+      style_(studio.style),
+      survey_(studio.survey),
+      palette_(studio.palette),
+      title_(survey_.field.title(survey_.units)) {
   double title = 0, labels = 0;
-  if (!survey.field.is_none()) {
+  if (!survey_.field.is_none()) {
     constexpr double size = 100;  // any: widths in em are asked for
+    const auto measure = [&](const std::string& label) {
+      labels = std::max(labels, plot::set_text(label, small * size).width / size);
+    };
     title = plot::set_text(title_, size).width / size;
-    for (const auto& tick : bar_ticks(survey, 12 * size, small * size, false).major)
-      labels = std::max(labels, plot::set_text(tick.label, small * size).width / size);
+    if (survey_.categories.empty())
+      for (const auto& tick : bar_ticks(survey_, 12 * size, small * size, false).major) measure(tick.label);
+    for (const auto kind : survey_.categories) measure(kind_label(kind));
   }
-  layout_ = arrange(style, survey, aspect, title, labels);
-  if (layout_.has_plot)
-    plot_.emplace(survey.series, survey.units, style.background, layout_.plot, layout_.em);
+  places_ = arrange(style_, survey_, aspect, title, labels);
+  if (places_.has_plot)
+    plot_.emplace(survey_.series, survey_.units, style_.background, places_.plot, places_.em);
+}
+
+/// A patch of each kind's colour with its number: from the top of the bar's place, or from its left end.
+void Furniture::draw_kinds(DisplayList& list) const {
+  const double em = places_.em, size = small * em;
+  const bool upright = places_.upright_bar;
+  const auto count = static_cast<double>(survey_.categories.size());
+  const double step =
+      std::min(upright ? 1.7 * em : 3.2 * em, (upright ? places_.bar.height() : places_.bar.width()) / count);
+  Point corner{places_.bar.left, places_.bar.top};
+  for (std::size_t i = 0; i < survey_.categories.size(); ++i) {
+    const double side = std::min(0.85 * em, 0.8 * step);
+    const Rgb c = studio_.kind_color(static_cast<std::ptrdiff_t>(i));
+    list.fill(Path().rectangle({corner.x(), corner.y(), corner.x() + side, corner.y() + side}),
+              {c.r, c.g, c.b, 1});
+    plot::draw_text(list, plot::set_text(kind_label(survey_.categories[i]), size),
+                    corner + Point(side + 0.45 * em, 0.5 * side + 0.33 * size), ink());
+    corner += upright ? Point(0, step) : Point(step, 0);
+  }
+  plot::draw_text(list, plot::set_text(title_, em), places_.title, ink());
 }
 
 void Furniture::draw_bar(DisplayList& list) const {
-  const double em = layout_.em;
-  const Rect& bar = layout_.bar;
-  const bool upright = layout_.upright_bar;
+  const double em = places_.em;
+  const Rect& bar = places_.bar;
+  const bool upright = places_.upright_bar;
   const double length = upright ? bar.height() : bar.width();
   // a step per pixel, each a little over the next so that no seam shows
   const int steps = std::max(2, static_cast<int>(std::lround(length)));
   for (int i = 0; i < steps; ++i) {
-    const Rgb c = map_.at((i + 0.5) / steps);
+    const Rgb c = studio_.map.at((i + 0.5) / steps);
     const double a = length * i / steps, b = std::min(length, length * (i + 1) / steps + 1);
     const Rect slice = upright ? Rect{bar.left, bar.bottom - b, bar.right, bar.bottom - a}
                                : Rect{bar.left + a, bar.top, bar.left + b, bar.bottom};
@@ -139,13 +165,13 @@ void Furniture::draw_bar(DisplayList& list) const {
   }
   // pointed ends: there are values beyond
   const auto point_at = [&](bool high) {
-    const Rgb c = map_.at(high ? 1 : 0);
+    const Rgb c = studio_.map.at(high ? 1 : 0);
     const double reach = 0.55 * em, sign = high ? 1 : -1;
-    const Point tip = upright ? Point{bar.centre().x, (high ? bar.top : bar.bottom) - sign * reach}
-                              : Point{(high ? bar.right : bar.left) + sign * reach, bar.centre().y};
+    const Point tip = upright ? Point{bar.centre().x(), (high ? bar.top : bar.bottom) - sign * reach}
+                              : Point{(high ? bar.right : bar.left) + sign * reach, bar.centre().y()};
     const Point a =
         upright ? Point{bar.left, high ? bar.top : bar.bottom} : Point{high ? bar.right : bar.left, bar.top};
-    const Point b = upright ? Point{bar.right, a.y} : Point{a.x, bar.bottom};
+    const Point b = upright ? Point{bar.right, a.y()} : Point{a.x(), bar.bottom};
     list.fill(polygon({a, tip, b}), {c.r, c.g, c.b, 1});
   };
   if (survey_.exceeds_high) point_at(true);
@@ -167,48 +193,51 @@ void Furniture::draw_bar(DisplayList& list) const {
     }
   }
   const std::string title = ticks.factor.empty() ? title_ : title_ + " " + ticks.factor;
-  plot::draw_text(list, plot::set_text(title, em), layout_.title, ink());
+  plot::draw_text(list, plot::set_text(title, em), places_.title, ink());
 }
 
 ScaleBar Furniture::flat_scale(double pixels_per_unit) const {
   ScaleBar scale;
-  scale.length = plain_length(longest_scale(layout_.scene, layout_.em) / pixels_per_unit);
-  scale.from = layout_.scale, scale.to = {layout_.scale.x + scale.length * pixels_per_unit, layout_.scale.y};
+  scale.length = plain_length(longest_scale(places_.scene, places_.em) / pixels_per_unit);
+  scale.from = places_.scale,
+  scale.to = {places_.scale.x() + scale.length * pixels_per_unit, places_.scale.y()};
   return scale;
 }
 
 void Furniture::draw_scale(DisplayList& list, const ScaleBar& scale) const {
-  const double em = layout_.em, width = std::max(1.5, 0.1 * em), end = 0.26 * em;
+  const double em = places_.em, width = std::max(1.5, 0.1 * em), end = 0.26 * em;
   const Point along = scale.to - scale.from;
-  const double length = std::hypot(along.x, along.y);
+  const double length = along.norm();
   if (!(length > 0)) return;
-  const Point u = (1 / length) * along, across{-u.y, u.x};  // downwards if the bar runs to the right
+  const Point u = along / length, across = u.unitOrthogonal();  // downwards if the bar runs to the right
   for (const Point& p : {scale.from, scale.to})
     list.stroke(segment(p - end * across, p + end * across), {width, {}}, ink());
   list.stroke(segment(scale.from, scale.to), {width, {}}, ink());
   const auto text = plot::set_text(length_text(scale.length, survey_.units), small * em);
-  const Point middle = 0.5 * (scale.from + scale.to) + ((0.75 + 0.35 * std::abs(across.x)) * em) * across;
-  const Point at = scale.label_below ? Point{middle.x - (0.5 + 0.5 * u.y) * text.width, middle.y + 0.5 * em}
-                                     : Point{scale.to.x + 0.5 * em, scale.to.y + 0.3 * small * em};
+  const Point middle = 0.5 * (scale.from + scale.to) + ((0.75 + 0.35 * std::abs(across.x())) * em) * across;
+  const Point at = scale.label_below
+                       ? Point{middle.x() - (0.5 + 0.5 * u.y()) * text.width, middle.y() + 0.5 * em}
+                       : Point{scale.to.x() + 0.5 * em, scale.to.y() + 0.3 * small * em};
   plot::draw_text(list, text, at, ink());
 }
 
 /// An arrow of a plain speed, to read the others by.
 void Furniture::draw_key(DisplayList& list, double arrow_pixels) const {
-  const double em = layout_.em;
+  const double em = places_.em;
   const double speed = plain_length(std::min(3 * survey_.speed, 4.5 * em / arrow_pixels));
   const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,\\sqrt{{gd}}$", speed)
                     : survey_.units == "SI"    ? fmt::format("{:g} m/s", speed)
                                                : fmt::format("{:g}", speed);
   const auto text = plot::set_text(unit, small * em);
-  const Point at{layout_.key.x - text.width, layout_.key.y}, to{at.x - 0.5 * em, at.y - 0.3 * small * em};
-  draw_arrow(list, {to.x - speed * arrow_pixels, to.y}, to, std::max(1.5, 0.085 * em), 0.55 * em, ink());
+  const Point at{places_.key.x() - text.width, places_.key.y()},
+      to{at.x() - 0.5 * em, at.y() - 0.3 * small * em};
+  draw_arrow(list, {to.x() - speed * arrow_pixels, to.y()}, to, std::max(1.5, 0.085 * em), 0.55 * em, ink());
   plot::draw_text(list, text, at, ink());
 }
 
 void Furniture::draw_gravity(DisplayList& list, const Directions& directions) const {
-  const double em = layout_.em, size = small * em, line = std::max(1.2, 0.075 * em);
-  const Rect& box = layout_.gravity;
+  const double em = places_.em, size = small * em, line = std::max(1.2, 0.075 * em);
+  const Rect& box = places_.gravity;
   const bool solid = survey_.dimensions == 3;
   const double reach = (solid ? 1.75 : 2.7) * em;
   // the foot of the arrows; they point down, a little to one side
@@ -217,38 +246,40 @@ void Furniture::draw_gravity(DisplayList& list, const Directions& directions) co
   if (solid) {
     constexpr const char* names[] = {"$x$", "$y$", "$z$"};
     for (std::size_t c = 0; c < 3; ++c) {
-      const Point axis = directions.axes[c];
-      const double seen = std::hypot(axis.x, axis.y);
+      const Point axis = directions.axes.col(static_cast<Eigen::Index>(c));
+      const double seen = axis.norm();
       if (seen < 0.12) continue;  // it points at the eye
       const Point tip = foot + (1.4 * em) * axis;
       list.stroke(segment(foot, tip), {line * 0.8, {}}, quiet());
       const auto name = plot::set_text(names[c], size);
       const Point at = tip + (0.5 * em / seen) * axis;
-      plot::draw_text(list, name, {at.x - name.width / 2, at.y + 0.27 * size}, quiet());
+      plot::draw_text(list, name, {at.x() - name.width / 2, at.y() + 0.27 * size}, quiet());
     }
   } else {
     const Point n = directions.normal, tip = foot + reach * n;
     list.stroke(segment(foot, tip), {line * 0.7, {0.28 * em, 0.2 * em}}, quiet());
-    const Point along{-n.y, n.x};
+    const Point along = n.unitOrthogonal();
     list.stroke(segment(tip - (0.6 * em) * along, tip + (0.6 * em) * along), {line * 0.7, {}}, quiet());
-    const double from = std::atan2(n.y, n.x), to = std::atan2(directions.gravity.y, directions.gravity.x);
+    const double from = std::atan2(n.y(), n.x()),
+                 to = std::atan2(directions.gravity.y(), directions.gravity.x());
     if (std::abs(to - from) > 0.12) list.stroke(arc(foot, 1.4 * em, from, to), {line * 0.7, {}}, ink());
   }
   const Point g = directions.gravity, tip = foot + reach * g;
   draw_arrow(list, foot, tip, line, 0.6 * em, ink());
   const auto name = plot::set_text("$g$", em);
   // in space the axes are to the right of the arrow
-  plot::draw_text(list, name, {solid ? tip.x - 0.45 * em - name.width : tip.x + 0.45 * em, tip.y}, ink());
+  plot::draw_text(list, name, {solid ? tip.x() - 0.45 * em - name.width : tip.x() + 0.45 * em, tip.y()},
+                  ink());
   const auto angle = plot::set_text(fmt::format("$\\theta = {}\\degree$", degrees_text(survey_.slope)), size);
   plot::draw_text(list, angle, {box.left, box.bottom - 0.25 * em}, ink());
 }
 
 void Furniture::stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels) {
   auto list = blank(style_.width, style_.height);
-  if (layout_.has_bar) draw_bar(list);
-  if (layout_.has_scale) draw_scale(list, scale);
-  if (layout_.has_key) draw_key(list, arrow_pixels);
-  if (layout_.has_gravity) draw_gravity(list, directions);
+  if (places_.has_bar) survey_.categories.empty() ? draw_bar(list) : draw_kinds(list);
+  if (places_.has_scale) draw_scale(list, scale);
+  if (places_.has_key) draw_key(list, arrow_pixels);
+  if (places_.has_gravity) draw_gravity(list, directions);
   standing_ = plot::rasterise_by_cairo(list, pixels);
   if (plot_) plot_->stand(standing_);
 }
@@ -257,14 +288,14 @@ void Furniture::put_on(image::Image& frame, double time) const {
   if (!style_.furniture) return;
   lay_over(frame, standing_);
   if (plot_) plot_->put_on(frame, time);
-  if (!layout_.has_time) return;
-  const auto text = plot::set_text(time_text(survey_, time), layout_.em);
-  const double above = std::ceil(1.5 * layout_.em), below = std::ceil(0.6 * layout_.em);
-  const Point whole{std::floor(layout_.time.x), std::floor(layout_.time.y)};
-  auto list = blank(std::ceil(text.width + layout_.em), above + below);
-  plot::draw_text(list, text, {layout_.time.x - whole.x, above + layout_.time.y - whole.y}, ink());
-  lay_over(frame, plot::rasterise_by_cairo(list, pixels), static_cast<int>(whole.x),
-           static_cast<int>(whole.y - above));
+  if (!places_.has_time) return;
+  const auto text = plot::set_text(time_text(survey_, time), places_.em);
+  const double above = std::ceil(1.5 * places_.em), below = std::ceil(0.6 * places_.em);
+  const Point whole{std::floor(places_.time.x()), std::floor(places_.time.y())};
+  auto list = blank(std::ceil(text.width + places_.em), above + below);
+  plot::draw_text(list, text, {places_.time.x() - whole.x(), above + places_.time.y() - whole.y()}, ink());
+  lay_over(frame, plot::rasterise_by_cairo(list, pixels), static_cast<int>(whole.x()),
+           static_cast<int>(whole.y() - above));
 }
 
 }  // namespace chute::view

@@ -5,20 +5,21 @@
 
 #include "image/image.hpp"
 #include "plot/display_list.hpp"
-#include "view/layout.hpp"
+#include "view/arrangement.hpp"
+#include "view/painter.hpp"
 #include "view/series_plot.hpp"
 
 namespace chute::view {
 
 /// Directions as they are seen in the picture: x to the right, y down, lengths up to 1.
 struct Directions {
-  plot::Point gravity, normal;        ///< where gravity points; into the incline
-  std::array<plot::Point, 3> axes{};  ///< 3D: the coordinate axes
+  plot::Point gravity{0, 0}, normal{0, 0};  ///< where gravity points; into the incline
+  Eigen::Matrix<double, 2, 3> axes = Eigen::Matrix<double, 2, 3>::Zero();  ///< 3D: the coordinate axes
 };
 
 /// A line of known length in the scene, pixels. Its label stands at its end, or below it.
 struct ScaleBar {
-  plot::Point from, to;
+  plot::Point from{0, 0}, to{0, 0};
   double length = 1;  ///< in the files' unit
   bool label_below = false;
 };
@@ -27,10 +28,10 @@ struct ScaleBar {
 /// drawn once.
 class Furniture {
  public:
-  /// `aspect` of the scene, see arrange(). `map` colours the bar.
-  Furniture(const FrameStyle& style, const Survey& survey, const ColorMap& map, double aspect);
+  /// `aspect` of the scene, see arrange(). The studio must live longer.
+  Furniture(const Studio& studio, double aspect);
 
-  const Layout& layout() const { return layout_; }
+  const Arrangement& places() const { return places_; }
 
   /// A horizontal scale bar below the scene, if one unit is that many pixels long everywhere.
   ScaleBar flat_scale(double pixels_per_unit) const;
@@ -42,16 +43,17 @@ class Furniture {
   void put_on(image::Image& frame, double time) const;
 
  private:
-  FrameStyle style_;
+  const Studio& studio_;
+  const FrameStyle& style_;
   const Survey& survey_;
-  const ColorMap& map_;
-  Palette palette_;
+  const Palette& palette_;
   std::string title_;
-  Layout layout_;
+  Arrangement places_;
   std::optional<SeriesPlot> plot_;
   image::Image standing_;
 
   void draw_bar(plot::DisplayList& list) const;
+  void draw_kinds(plot::DisplayList& list) const;
   void draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
   void draw_key(plot::DisplayList& list, double arrow_pixels) const;
   void draw_gravity(plot::DisplayList& list, const Directions& directions) const;

@@ -1,12 +1,17 @@
 #include "view/painter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 #include "common/fields.hpp"
+#include "plot/style.hpp"
 
 namespace chute::view {
 namespace {
+
+/// Grains that force chains run through are mixed with so much of the ground: the chains are the subject.
+constexpr double faded_by_chains = 0.55;
 
 std::string map_name(const FrameStyle& style, const Survey& survey) {
   return !style.map.empty() ? style.map : survey.diverging ? "rdbu" : "viridis";
@@ -17,11 +22,12 @@ std::string map_name(const FrameStyle& style, const Survey& survey) {
 Studio::Studio(const FrameStyle& s, const Survey& found)
     : style(s), survey(found), palette(palette_of(s.background)), map(map_name(s, found)) {
   style.check();
-  if (style.chains) map = map.faded(palette.ground, 0.55);  // the chains are the subject
+  if (style.chains) map = map.faded(palette.ground, faded_by_chains);
 }
 
 std::vector<Rgb> Studio::colors(const read::GrainFrame& frame) const {
   const auto values = survey.field.values(frame);
+  const auto& kinds = survey.categories;
   std::vector<Rgb> result(frame.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (is_bed(frame, i))
@@ -30,10 +36,25 @@ std::vector<Rgb> Studio::colors(const read::GrainFrame& frame) const {
       result[i] = palette.plain;
     else if (!std::isfinite(values[i]))
       result[i] = palette.quiet;
+    else if (!kinds.empty())
+      result[i] =
+          kind_color(std::lower_bound(kinds.begin(), kinds.end(), std::llround(values[i])) - kinds.begin());
     else
       result[i] = map.at((values[i] - survey.low) / (survey.high - survey.low));
   }
   return result;
+}
+
+Rgb Studio::kind_color(std::ptrdiff_t kind) const {
+  const auto& colors =
+      plot::look_of(style.background == Background::dark ? plot::Style::dark : plot::Style::journal).colors;
+  const auto& c = colors[static_cast<std::size_t>(kind) % colors.size()];
+  const Rgb color{c.r, c.g, c.b};
+  return style.chains ? mix(color, palette.ground, faded_by_chains) : color;
+}
+
+bool Studio::is_cut(const Eigen::Vector3d& place) const {
+  return std::any_of(style.cuts.begin(), style.cuts.end(), [&](const Cut& cut) { return cut.hides(place); });
 }
 
 Trail trails(const FrameData& data) {
@@ -48,7 +69,7 @@ Trail trails(const FrameData& data) {
         places[k][std::llround(earlier_ids->at(i))] = i;
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (frame.is_fixed(i)) continue;
-    std::array<double, 3> here{frame.x[i], frame.y[i], frame.z[i]};
+    Eigen::Vector3d here = frame.centre(i);
     trail.paths[i].push_back(here);
     for (std::size_t back = data.earlier.size(); back-- > 0;) {
       const auto& earlier = *data.earlier[back];
@@ -60,12 +81,10 @@ Trail trails(const FrameData& data) {
       } else if (earlier.size() != frame.size()) {
         break;
       }
-      std::array<double, 3> there{earlier.x[j], earlier.y[j], earlier.z[j]};
+      Eigen::Vector3d there = earlier.centre(j);
       for (int c = 0; c < 3; ++c)
-        if (const double period = frame.period(c); period > 0) {
-          auto& p = there[static_cast<std::size_t>(c)];
-          p += period * std::round((here[static_cast<std::size_t>(c)] - p) / period);
-        }
+        if (const double period = frame.period(c); period > 0)
+          there[c] += period * std::round((here[c] - there[c]) / period);
       trail.paths[i].push_back(there);
       here = there;
     }

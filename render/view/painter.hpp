@@ -3,20 +3,13 @@
 #include <vector>
 
 #include "image/image.hpp"
-#include "read/contacts.hpp"
-#include "read/grain_frame.hpp"
+#include "view/frame_data.hpp"
 #include "view/frame_style.hpp"
-#include "view/furniture.hpp"
 #include "view/survey.hpp"
 
 namespace chute::view {
 
-/// What one frame is drawn from.
-struct FrameData {
-  const read::GrainFrame& frame;
-  const std::vector<read::Contact>& contacts;
-  const std::vector<const read::GrainFrame*>& earlier;  ///< the oldest first
-};
+class Furniture;
 
 /// Turns grains into a picture: FlatPainter in the plane, SolidPainter in space.
 class Painter {
@@ -24,6 +17,9 @@ class Painter {
   virtual ~Painter() = default;
   virtual void paint(const FrameData& data, image::Image& into) = 0;
 };
+
+/// Forces beyond nearly the largest are drawn wider only up to this, so that a single one does not fill the picture.
+inline constexpr double strongest_link = 1.3;
 
 /// What both painters work with.
 struct Studio {
@@ -34,9 +30,12 @@ struct Studio {
 
   Studio(const FrameStyle& style, const Survey& survey);
   std::vector<Rgb> colors(const read::GrainFrame& frame) const;  ///< one per grain; fixed ones get the bed's
+  /// In one of the half spaces in which nothing is drawn.
+  bool is_cut(const Eigen::Vector3d& place) const;
   bool is_bed(const read::GrainFrame& frame, std::size_t grain) const {
     return survey.has_fixed && frame.is_fixed(grain);
   }
+  Rgb kind_color(std::ptrdiff_t kind) const;  ///< of survey.categories
   /// Length of a velocity arrow for speed 1, in the files' unit.
   double arrow_length() const { return survey.speed > 0 ? 1.6 * survey.diameter / survey.speed : 0; }
 };
@@ -45,10 +44,10 @@ struct Studio {
 std::unique_ptr<Painter> make_flat_painter(const Studio& studio, std::unique_ptr<Furniture>& furniture);
 std::unique_ptr<Painter> make_solid_painter(const Studio& studio, std::unique_ptr<Furniture>& furniture);
 
-/// A grain's place at an earlier time, taken to the periodic copy nearest to `now`.
+/// Where grains have been: each earlier place in the periodic copy nearest to the one after it.
 struct Trail {
-  std::vector<std::vector<std::array<double, 3>>>
-      paths;  ///< per grain of the newest frame, the newest place first
+  /// Per grain of the newest frame, the newest place first; empty for those that are fixed.
+  std::vector<std::vector<Eigen::Vector3d>> paths;
 };
 Trail trails(const FrameData& data);
 

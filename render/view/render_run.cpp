@@ -1,16 +1,20 @@
 #include "view/render_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <memory>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/fields.hpp"
 #include "image/png.hpp"
 #include "read/run_frames.hpp"
+#include "read/surroundings.hpp"
 #include "view/crew.hpp"
 #include "view/frame_renderer.hpp"
 #include "view/movie.hpp"
@@ -20,20 +24,30 @@ namespace fs = std::filesystem;
 namespace {
 
 // Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
-constexpr int drawing_version = 2;
+constexpr int drawing_version = 3;
 constexpr const char* drawn_from = "Drawn-From";
 
-/// FNV-1a over texts and files: tells whether a picture is drawn from the same.
+/// Over texts and files: tells whether a picture is drawn from the same. FNV-1a's mixing, eight bytes at a time,
+/// with the high half folded back so that all bits of a word matter to all of the result.
 class Hash {
  public:
   void add(std::string_view bytes) {
-    for (const char c : bytes) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    value_ = (value_ ^ bytes.size()) * 0x100000001b3u;
+    mix(bytes.size());
+    for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(8, bytes.size()))) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data(), std::min<std::size_t>(8, bytes.size()));
+      mix(word);
+    }
   }
   std::string text() const { return fmt::format("{:016x}", value_); }
 
  private:
   std::uint64_t value_ = 0xcbf29ce484222325u;
+
+  void mix(std::uint64_t word) {
+    value_ = (value_ ^ word) * 0x100000001b3u;
+    value_ ^= value_ >> 32;
+  }
 };
 
 bool is_drawn(const fs::path& picture, const std::string& hash) {
@@ -48,11 +62,52 @@ bool is_drawn(const fs::path& picture, const std::string& hash) {
   }
 }
 
+/// What a run keeps beside its frames.
+struct Beside {
+  std::vector<read::WallPiece> walls;
+  std::vector<read::Impact> impacts;
+  std::string hash;  ///< of both files
+
+  Beside(const RenderJob& job, const std::vector<read::FrameFile>& frames) {
+    Hash found;
+    const auto take = [&](const char* name) {
+      const auto path = read::find_beside(frames.front(), name);
+      if (!path.empty()) found.add(read_file(path));
+      return path;
+    };
+    if (const auto path = take("walls.vtp"); !path.empty()) walls = read::read_walls(path);
+    if (job.style.impacts) {
+      const auto path = take("impacts.vtp");
+      if (path.empty())
+        throw InputError(job.source.string() + ": the run kept no impacts.vtp, which marks of impacts need");
+      impacts = read::read_impacts(path);
+    }
+    hash = found.text();
+  }
+  /// How many impacts there were until then.
+  std::size_t until(double time) const {
+    const auto end = std::upper_bound(impacts.begin(), impacts.end(), time,
+                                      [](double t, const read::Impact& impact) { return t < impact.time; });
+    return static_cast<std::size_t>(end - impacts.begin());
+  }
+};
+
+/// The arrays that a frame is drawn from, beside radius and type.
+std::vector<std::string> wanted_arrays(const FrameStyle& style) {
+  std::vector<std::string> names{color_array(style.color)};
+  if (style.color.empty() || style.arrows) names.emplace_back(fields::velocity.name);
+  if (style.spin) names.emplace_back(fields::angle.name), names.emplace_back(fields::orientation.name);
+  if (style.trail || style.impacts) names.emplace_back(fields::id.name);
+  return names;
+}
+
 /// Draws single frames of a run; one per process.
 class FrameDrawer {
  public:
-  FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey)
-      : job_(job), frames_(frames), survey_(survey) {
+  FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey,
+              const Beside& beside)
+      : job_(job), frames_(frames), survey_(survey), beside_(beside), wanted_(wanted_arrays(job.style)) {
+    common_.add(beside.hash);
     common_.add(fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(),
                             survey.describe(), job.radius.value_or(0)));
     const auto add = [&](const std::vector<double>& values) {
@@ -67,7 +122,7 @@ class FrameDrawer {
     const auto& file = frames_[number];
     const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
     for (std::size_t i = oldest; i < number; ++i) load(i);
-    const std::string bytes = read_file(file.path);
+    std::string bytes = read_file(file.path);
     const std::string network =
         job_.style.chains && !file.contacts.empty() ? read_file(file.contacts) : std::string();
 
@@ -78,18 +133,29 @@ class FrameDrawer {
     hash.add(bytes);
     hash.add(network);
     for (std::size_t i = oldest; i < number; ++i) hash.add(earlier_[i - first_earlier_].hash);
+    const std::size_t impacts = beside_.until(survey_.times[number]);
+    hash.add(fmt::format("impacts {}", impacts));
+    if (!survey_.path.empty())
+      hash.add(fmt::format("{}", fmt::join(survey_.path[number].begin(), survey_.path[number].end(), " ")));
     if (!picture.empty() && is_drawn(picture, hash.text())) {
       if (wanted) into = image::read_png(picture);
       return false;
     }
 
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
-    const auto frame = read::parse_frame(bytes, file.path, job_.radius);
-    const auto contacts =
-        network.empty() ? std::vector<read::Contact>() : read::parse_contacts(network, file.contacts);
+    const auto frame = read::parse_frame(std::move(bytes), file.path, job_.radius, wanted_);
+    const auto links =
+        network.empty() ? std::vector<read::ForceLink>() : read::parse_network(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
     for (std::size_t i = oldest; i < number; ++i) trail.push_back(&earlier_[i - first_earlier_].frame);
-    const auto& drawn = renderer_->draw(frame, survey_.times[number], contacts, trail);
+    FrameData data{.frame = frame,
+                   .time = survey_.times[number],
+                   .links = links,
+                   .earlier = trail,
+                   .walls = beside_.walls};
+    data.impacts = std::span(beside_.impacts).first(impacts);
+    if (!survey_.path.empty()) data.focus = survey_.path[number];
+    const auto& drawn = renderer_->draw(data);
     if (!picture.empty())
       image::write_png(
           picture, drawn,
@@ -106,6 +172,8 @@ class FrameDrawer {
   const RenderJob& job_;
   const std::vector<read::FrameFile>& frames_;
   const Survey& survey_;
+  const Beside& beside_;
+  std::vector<std::string> wanted_;
   Hash common_;
   std::unique_ptr<FrameRenderer> renderer_;
   std::deque<Earlier> earlier_;  ///< frames first_earlier_, first_earlier_ + 1 …: trails share most of them
@@ -119,11 +187,41 @@ class FrameDrawer {
     const auto bytes = read_file(frames_[i].path);
     Hash hash;
     hash.add(bytes);
-    earlier_.push_back({read::parse_frame(bytes, frames_[i].path, job_.radius), hash.text()});
+    earlier_.push_back(
+        {read::parse_frame(bytes, frames_[i].path, job_.radius, {std::string(fields::id.name)}),
+         hash.text()});
     while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64)
       earlier_.pop_front(), ++first_earlier_;
   }
 };
+
+/// Options that would do nothing are refused: whoever asks for them expects something else.
+void check_dimensions(const FrameStyle& style, const Survey& survey) {
+  struct Option {
+    bool given;
+    const char* name;
+  };
+  const bool flat = survey.dimensions == 2;
+  const Camera usual;
+  const Option in_space[] = {
+      {style.occlusion, "--occlusion"},
+      {style.outlines, "--outlines"},
+      {style.floor, "--floor"},
+      {style.box, "--box"},
+      {style.camera.azimuth != usual.azimuth || style.camera.elevation != usual.elevation ||
+           style.camera.zoom != usual.zoom,
+       "--camera AZIMUTH:ELEVATION[:ZOOM]"}};
+  const Option in_plane[] = {{style.camera.window.has_value(), "--camera X0:X1:Y0:Y1"}};
+  const std::span<const Option> wrong =
+      flat ? std::span<const Option>(in_space) : std::span<const Option>(in_plane);
+  for (const Option& option : wrong)
+    if (option.given)
+      throw InputError(fmt::format("{} does nothing here: these grains lie in {}", option.name,
+                                   flat ? "a plane" : "space"));
+  for (const Cut& cut : style.cuts)
+    if (flat && cut.axis == 2)
+      throw InputError("--cut along z does nothing here: these grains lie in a plane");
+}
 
 }  // namespace
 
@@ -160,11 +258,13 @@ RenderReport render_run(const RenderJob& job) {
   TimeSeries series;
   if (!job.plot.empty())
     series = read_time_series(job.series.empty() ? job.source / "series.csv" : job.series, job.plot);
-  Survey found =
-      survey(frames, job.style, job.radius, [&](std::size_t done) { tell("reading", done, frames.size()); });
+  Survey found = survey(frames, job.style, job.radius, job.jobs,
+                        [&](std::size_t done) { tell("reading", done, frames.size()); });
   if (!series.empty() && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
   found.series = std::move(series);
+  const Beside beside(job, frames);
+  check_dimensions(job.style, found);
   if (!job.output.empty()) {
     std::error_code error;
     fs::create_directories(job.output, error);
@@ -177,7 +277,7 @@ RenderReport render_run(const RenderJob& job) {
     draw_all(
         which.size(), job.jobs, style.width, style.height, wanted,
         [&]() -> Draw {
-          auto drawer = std::make_shared<FrameDrawer>(job, frames, found);
+          auto drawer = std::make_shared<FrameDrawer>(job, frames, found, beside);
           return [drawer, &which](std::size_t i, bool pixels, image::Image& into) {
             return (*drawer)(which[i], pixels, into);
           };

@@ -1,91 +1,97 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 #include "common/fields.hpp"
-#include "view/hidden.hpp"
-#include "view/offscreen.hpp"
+#include "view/furniture.hpp"
 #include "view/painter.hpp"
 #include "view/solid_scene.hpp"
 
 namespace chute::view {
 namespace {
 
+using Eigen::Vector3d;
+
+SolidLook look_of(const Studio& studio) {
+  SolidLook look;
+  look.ground = studio.palette.ground, look.ground_alpha = studio.palette.ground_alpha;
+  look.ink = {.06, .06, .07}, look.spot = studio.palette.mark;
+  look.occlusion = studio.style.occlusion ? studio.survey.diameter / 2 : 0;
+  look.outlines = studio.style.outlines;
+  return look;
+}
+
 class SolidPainter : public Painter {
  public:
   SolidPainter(const Studio& studio, std::unique_ptr<Furniture>& furniture)
-      : studio_(studio),
-        context_(SolidScene::samples * studio.style.width, SolidScene::samples * studio.style.height),
-        scene_(context_, studio.style.width, studio.style.height, studio.palette.ground,
-               studio.palette.ground_alpha) {
+      : studio_(studio), scene_(studio.style.width, studio.style.height, look_of(studio)) {
     const auto& survey = studio_.survey;
-    const auto& g = survey.gravity;
-    const std::size_t n = static_cast<std::size_t>(survey.up_axis);
-    Vector normal{}, side{}, down = g;
-    normal[n] = 1;
-    side[3 - n] = n == 2 ? -1 : 1;  // from where x points to the right
-    const double strength = std::hypot(g[0], g[1], g[2]);
-    for (double& x : down) x = strength > 0 ? x / strength : 0;
-    Vector up = normal;
-    if (studio_.style.tilt && strength > 0) up = {-down[0], -down[1], -down[2]};
     const auto& camera = studio_.style.camera;
+    normal_ = Vector3d::Unit(survey.up_axis);
+    // the direction from which x points to the right
+    const Vector3d side = survey.up_axis == 2 ? Vector3d(0, -1, 0) : Vector3d(0, 0, 1);
+    const double strength = survey.gravity.norm();
+    const Vector3d down = strength > 0 ? Vector3d(survey.gravity / strength) : Vector3d(Vector3d::Zero());
     const double azimuth = camera.azimuth * std::numbers::pi / 180,
                  elevation = camera.elevation * std::numbers::pi / 180;
-    Vector towards;
-    for (std::size_t c = 0; c < 3; ++c)
-      towards[c] = std::cos(elevation) * (std::sin(azimuth) * (c == 0) + std::cos(azimuth) * side[c]) +
-                   std::sin(elevation) * normal[c];
+    const Vector3d towards =
+        std::cos(elevation) * (std::sin(azimuth) * Vector3d::UnitX() + std::cos(azimuth) * side) +
+        std::sin(elevation) * normal_;
+    const auto axes = Eye::axes_of(towards, studio_.style.tilt && strength > 0 ? Vector3d(-down) : normal_);
 
     box_ = survey.bounds;
-    if (copies()) box_[0] -= copy_reach * period(), box_[1] += copy_reach * period();
-    furniture =
-        std::make_unique<Furniture>(studio_.style, survey, studio_.map, Eye::aspect(box_, towards, up));
-    eye_ = Eye::on_box(box_, towards, up, furniture->layout().scene, camera.zoom);
-    const double depth = std::hypot(box_[1] - box_[0], box_[3] - box_[2], box_[5] - box_[4]);
-    scene_.look(eye_, {eye_.distance - depth, eye_.distance + depth});
-    if (studio_.style.occlusion) scene_.occlude(survey.diameter / 2);
+    if (copies()) box_.min().x() -= copy_reach * period(), box_.max().x() += copy_reach * period();
+    furniture = std::make_unique<Furniture>(studio_, Eye::aspect(box_, axes));
+    eye_ = Eye::on_box(box_, axes, furniture->places().scene, camera.zoom);
+    scene_.look(eye_);
 
     Directions directions;
     directions.gravity = eye_.seen_direction(down);
-    for (std::size_t c = 0; c < 3; ++c) {
-      Vector axis{};
-      axis[c] = 1;
-      directions.axes[c] = eye_.seen_direction(axis);
-    }
-    ScaleBar scale = scale_bar(furniture->layout().em);
-    shown_ = furniture->layout().scene;
-    if (zoomed() && !(shown_.contains(scale.from) && shown_.contains(scale.to))) scale.to = scale.from;
+    for (int c = 0; c < 3; ++c) directions.axes.col(c) = eye_.seen_direction(Vector3d::Unit(c));
+    ScaleBar scale = scale_bar(furniture->places().em);
+    shown_ = furniture->places().scene;
+    if (overflows() && !(shown_.contains(scale.from) && shown_.contains(scale.to))) scale.to = scale.from;
     furniture->stand(scale, directions, studio_.arrow_length() * eye_.focal / eye_.distance);
   }
 
   void paint(const FrameData& data, image::Image& into) override {
-    balls_.clear(), rods_.clear();
+    content_ = {};
     const auto& frame = data.frame;
     const auto colors = studio_.colors(frame);
-    for (std::size_t i = 0; i < frame.size(); ++i) add_grain(frame, i, colors[i]);
+    const auto* orientation = frame.find(fields::orientation.name);
+    orientation_ = studio_.style.spin && orientation && orientation->components == 4 ? orientation : nullptr;
+    content_.balls.reserve(frame.size());
+    for (std::size_t i = 0; i < frame.size(); ++i)
+      if (!studio_.is_cut(frame.centre(i))) add_grain(frame, i, colors[i]);
+    if (studio_.style.impacts) add_impacts(data);
     if (studio_.style.trail) add_trails(data, colors);
-    if (studio_.style.chains) add_chains(data.contacts);
+    if (studio_.style.chains) add_chains(data.links);
     if (studio_.style.arrows) add_arrows(frame);
-    // rods that end inside balls do not hide them
-    scene_.draw(visible(balls_, eye_, studio_.style.width, studio_.style.height), rods_, into);
-    if (zoomed() && studio_.style.furniture) keep_inside(into);
+    if (studio_.style.box) add_box();
+    if (studio_.style.floor) add_floor();
+    for (const auto& wall : data.walls) add_wall(wall);
+    scene_.draw(content_, into);
+    if (overflows() && studio_.style.furniture) keep_inside(into);
   }
 
  private:
   Studio studio_;
-  OffscreenContext context_;
   SolidScene scene_;
   Eye eye_;
-  std::array<double, 6> box_{};
+  Vector3d normal_;  ///< of the incline
+  Eigen::AlignedBox3d box_;
   plot::Rect shown_;  ///< pixels
-  std::vector<Ball> balls_;
-  std::vector<Rod> rods_;
+  SolidContent content_;
+  const read::PointArray* orientation_ = nullptr;
 
-  double period() const { return studio_.survey.domain[1] - studio_.survey.domain[0]; }
+  double period() const { return studio_.survey.domain.sizes().x(); }
   bool copies() const { return studio_.style.copies && period() > 0; }
+  /// The length that is one pixel where the eye looks.
+  double pixel() const { return eye_.distance / eye_.focal; }
 
-  /// Grains from near by fill the picture, and would run under the texts beside the scene.
-  bool zoomed() const { return studio_.style.camera.zoom > 1; }
+  /// Grains may lie beyond the scene's place, and would run under the texts beside it.
+  bool overflows() const { return studio_.style.camera.zoom > 1 || studio_.style.camera.follow; }
   void keep_inside(image::Image& picture) const {
     const auto& p = studio_.palette;
     const auto byte = [&](double v) {
@@ -101,69 +107,100 @@ class SolidPainter : public Painter {
   /// Along a lower edge of the box that is near to the eye, a little outside: lengths are true there. Of the
   /// two, the one that is seen less from its end.
   ScaleBar scale_bar(double em) const {
-    const std::size_t n = static_cast<std::size_t>(studio_.survey.up_axis), side = 3 - n;
+    const int n = studio_.survey.up_axis, side = 3 - n;
     ScaleBar best;
     double largest = 0;  // pixels per unit
-    for (const std::size_t along : {std::size_t{0}, side}) {
-      const std::size_t other = along == 0 ? side : 0;
-      Vector a{}, b{};
-      a[n] = b[n] = box_[2 * n];
-      const bool far_side = eye_.towards[other] > 0;
-      a[other] = b[other] = box_[2 * other + far_side] + (far_side ? 0.9 : -0.9) * studio_.survey.diameter;
-      a[along] = box_[2 * along], b[along] = box_[2 * along + 1];
-      const auto whole = eye_.seen(b) - eye_.seen(a);
-      const double pixels = std::hypot(whole.x, whole.y), scale = pixels / (b[along] - a[along]);
+    for (const int along : {0, side}) {
+      const int other = along == 0 ? side : 0;
+      Vector3d a = box_.min(), b = box_.min();
+      const double outside = 0.9 * studio_.survey.diameter;
+      a[other] = b[other] =
+          eye_.towards()[other] > 0 ? box_.max()[other] + outside : box_.min()[other] - outside;
+      b[along] = box_.max()[along];
+      const plot::Point whole = eye_.seen(b) - eye_.seen(a);
+      const double pixels = whole.norm(), scale = pixels / (b[along] - a[along]);
       if (scale <= largest) continue;
       largest = scale;
       best.length = plain_length((b[along] - a[along]) * std::min(0.5, std::max(4 * em / pixels, 0.3)));
-      (whole.x >= 0 ? b : a)[along] = whole.x >= 0 ? a[along] + best.length : b[along] - best.length;
-      best.from = eye_.seen(whole.x >= 0 ? a : b), best.to = eye_.seen(whole.x >= 0 ? b : a);
+      (whole.x() >= 0 ? b : a)[along] = whole.x() >= 0 ? a[along] + best.length : b[along] - best.length;
+      best.from = eye_.seen(whole.x() >= 0 ? a : b), best.to = eye_.seen(whole.x() >= 0 ? b : a);
     }
     best.label_below = true;
     return best;
   }
 
   void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
+    const bool bed = studio_.is_bed(frame, i);
     // chains run inside the grains: those shrink so that they show
-    const bool shrunk = studio_.style.chains && !studio_.is_bed(frame, i);
-    const double r = frame.radius[i] * (shrunk ? 0.4 : 1);
-    balls_.push_back({{frame.x[i], frame.y[i], frame.z[i]}, r, color});
+    constexpr double shrunk = 0.4;
+    Ball ball{frame.centre(i), frame.radius[i] * (studio_.style.chains && !bed ? shrunk : 1), color};
+    if (orientation_ && !bed)
+      ball.orientation = Eigen::Quaterniond(orientation_->at(i, 0), orientation_->at(i, 1),
+                                            orientation_->at(i, 2), orientation_->at(i, 3))
+                             .cast<float>();
+    content_.balls.push_back(ball);
     if (!copies()) return;
     for (const double shift : {-period(), period()}) {
-      const double x = frame.x[i] + shift;
-      const double beyond = beyond_domain(studio_.survey.domain, x);
-      if (beyond < 1)
-        balls_.push_back({{x, frame.y[i], frame.z[i]},
-                          r,
-                          mix(color, studio_.palette.ground, 0.6 + 0.3 * std::max(0.0, beyond))});
+      Ball copy = ball;
+      copy.centre.x() += shift;
+      const double beyond = beyond_domain(studio_.survey.domain, copy.centre.x());
+      if (beyond >= 1) continue;
+      copy.color = mix(color, studio_.palette.ground, 0.6 + 0.3 * std::max(0.0, beyond));
+      content_.balls.push_back(copy);
     }
+  }
+
+  /// Spots on beads of the bed, which stay where they were hit. Grains that move would have turned away since.
+  void add_impacts(const FrameData& data) {
+    const auto* ids = data.frame.find(fields::id.name);
+    std::unordered_map<long long, std::size_t> beads;
+    std::size_t ball = 0;
+    for (std::size_t i = 0; i < data.frame.size(); ++i) {
+      if (studio_.is_cut(data.frame.centre(i))) continue;
+      // copies come behind their ball
+      while (content_.balls[ball].centre != data.frame.centre(i)) ++ball;
+      if (data.frame.is_fixed(i)) beads[ids ? std::llround(ids->at(i)) : static_cast<long long>(i)] = ball;
+    }
+    for (const auto& impact : data.impacts) {
+      const auto bead = beads.find(impact.bead);
+      if (bead == beads.end()) continue;
+      Vector3d out = impact.place - content_.balls[bead->second].centre;
+      for (int c = 0; c < 3; ++c)
+        if (const double period = studio_.survey.domain.sizes()[c]; period > 0)
+          out[c] -= period * std::round(out[c] / period);
+      if (out.norm() > 0) content_.spots.push_back({bead->second, out.normalized()});
+    }
+    std::stable_sort(content_.spots.begin(), content_.spots.end(),
+                     [](const Spot& a, const Spot& b) { return a.ball < b.ball; });
   }
 
   void add_trails(const FrameData& data, const std::vector<Rgb>& colors) {
     const auto trail = trails(data);
     for (std::size_t i = 0; i < trail.paths.size(); ++i) {
       const auto& path = trail.paths[i];
+      if (studio_.is_cut(data.frame.centre(i))) continue;
       const double radius = 0.16 * data.frame.radius[i], steps = static_cast<double>(studio_.style.trail);
       for (std::size_t k = 0; k + 1 < path.size(); ++k) {
         const double near = 1 - static_cast<double>(k) / steps, far = 1 - static_cast<double>(k + 1) / steps;
-        rods_.push_back({path[k], path[k + 1], radius * near, radius * far, colors[i]});
+        content_.rods.push_back({path[k], path[k + 1], radius * near, radius * far, colors[i]});
       }
     }
   }
 
-  void add_chains(const std::vector<read::Contact>& contacts) {
+  void add_chains(std::span<const read::ForceLink> links) {
     if (studio_.survey.force <= 0) return;
-    const auto& domain = studio_.survey.domain;
-    for (const auto& contact : contacts) {
+    for (const auto& link : links) {
       const double radius =
-          0.22 * studio_.survey.diameter * std::min(1.3, contact.force / studio_.survey.force);
-      if (radius < 0.004 * studio_.survey.diameter) continue;
-      Vector to = contact.to;
-      for (std::size_t c = 0; c < 3; ++c)
-        if (const double L = domain[2 * c + 1] - domain[2 * c]; L > 0)
-          to[c] -= L * std::round((to[c] - contact.from[c]) / L);  // a contact through the periodic ends
-      rods_.push_back(
-          {contact.from, to, radius, radius, mix(studio_.palette.ink, studio_.palette.ground, 0.2)});
+          0.22 * studio_.survey.diameter * std::min(strongest_link, link.force / studio_.survey.force);
+      constexpr double thinnest = 0.004;  // mean diameters; thinner ones are not seen
+      if (radius < thinnest * studio_.survey.diameter || studio_.is_cut(link.from) || studio_.is_cut(link.to))
+        continue;
+      Vector3d to = link.to;
+      for (int c = 0; c < 3; ++c)
+        if (const double L = studio_.survey.domain.sizes()[c]; L > 0)
+          to[c] -= L * std::round((to[c] - link.from[c]) / L);  // a contact through the periodic ends
+      content_.rods.push_back(
+          {link.from, to, radius, radius, mix(studio_.palette.ink, studio_.palette.ground, 0.2)});
     }
   }
 
@@ -172,21 +209,55 @@ class SolidPainter : public Painter {
     if (!velocity || velocity->components != 3) return;
     const double unit = studio_.arrow_length(), thin = 0.035 * studio_.survey.diameter;
     for (std::size_t i = 0; i < frame.size(); ++i) {
-      if (studio_.is_bed(frame, i)) continue;
-      const Vector from{frame.x[i], frame.y[i], frame.z[i]};
-      Vector neck = from, tip = from;
-      double length = 0;
-      for (int c = 0; c < 3; ++c) length += std::pow(unit * velocity->at(i, c), 2);
-      length = std::sqrt(length);
+      if (studio_.is_bed(frame, i) || studio_.is_cut(frame.centre(i))) continue;
+      const Vector3d along = unit * Vector3d(velocity->at(i, 0), velocity->at(i, 1), velocity->at(i, 2));
+      const double length = along.norm(), head = std::min(7 * thin, 0.5 * length);
       if (length < 2 * thin) continue;
-      const double head = std::min(7 * thin, 0.5 * length) / length;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double v = unit * velocity->at(i, static_cast<int>(c));
-        tip[c] += v, neck[c] += (1 - head) * v;
-      }
-      rods_.push_back({from, neck, thin, thin, studio_.palette.ink});
-      rods_.push_back({neck, tip, 0.36 * head * length, 0, studio_.palette.ink});
+      const Vector3d from = frame.centre(i), tip = from + along, neck = tip - head / length * along;
+      content_.rods.push_back({from, neck, thin, thin, studio_.palette.ink});
+      content_.rods.push_back({neck, tip, 0.36 * head, 0, studio_.palette.ink});
     }
+  }
+
+  /// A line in space about `pixels` wide, in pieces: each is looked for in the rectangle around it.
+  void add_line(const Vector3d& from, const Vector3d& to, double pixels, Rgb color) {
+    constexpr int pieces = 32;
+    const double radius = 0.5 * pixels * pixel();
+    for (int i = 0; i < pieces; ++i) {
+      const Vector3d step = (to - from) / pieces;
+      content_.rods.push_back({from + i * step, from + (i + 1) * step, radius, radius, color});
+    }
+  }
+  double line_width() const { return std::max(1.2, 0.0011 * studio_.style.width); }
+
+  /// The edges of the box in which the run is periodic, and of all grains along the other axes.
+  void add_box() {
+    Eigen::AlignedBox3d box = studio_.survey.bounds;
+    for (int c = 0; c < 3; ++c)
+      if (studio_.survey.domain.sizes()[c] > 0)
+        box.min()[c] = studio_.survey.domain.min()[c], box.max()[c] = studio_.survey.domain.max()[c];
+    for (int corner = 0; corner < 8; ++corner)
+      for (int c = 0; c < 3; ++c)
+        if (const int other = corner | 1 << c; other != corner)
+          add_line(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)),
+                   box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(other)), line_width(),
+                   studio_.palette.quiet);
+  }
+
+  void add_floor() {
+    Floor floor;
+    const Vector3d half = box_.diagonal() / 2;
+    floor.centre = box_.center() - half[studio_.survey.up_axis] * normal_, floor.normal = normal_;
+    floor.radius = half.norm() + box_.diagonal()[studio_.survey.up_axis];  // the shadow of the highest grain
+    content_.floor = floor;
+  }
+
+  void add_wall(const read::WallPiece& wall) {
+    constexpr double alpha = 0.16;
+    const Rgb color = mix(studio_.palette.plain, studio_.palette.quiet, 0.5);
+    if (wall.corners.size() > 2) content_.panes.push_back({wall.corners, color, alpha});
+    for (std::size_t i = 0; i < wall.corners.size(); ++i)
+      add_line(wall.corners[i], wall.corners[(i + 1) % wall.corners.size()], line_width(), color);
   }
 };
 

@@ -1,243 +1,259 @@
 #include "view/solid_scene.hpp"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkCameraPass.h>
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
-#include <vtkLight.h>
-#include <vtkLightsPass.h>
-#include <vtkNew.h>
-#include <vtkOpaquePass.h>
-#include <vtkOpenGLPolyDataMapper.h>
-#include <vtkOpenGLRenderer.h>
-#include <vtkOpenGLSphereMapper.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkProperty.h>
-#include <vtkRenderPassCollection.h>
-#include <vtkRenderStepsPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkSSAOPass.h>
-#include <vtkSequencePass.h>
-#include <vtkUnsignedCharArray.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <memory>
+#include <numeric>
 
-#include "view/offscreen.hpp"
+#include "view/floor_shadow.hpp"
+#include "view/occlusion.hpp"
+#include "view/solid_shading.hpp"
+#include "view/solid_tile.hpp"
 
 namespace chute::view {
 namespace {
 
-unsigned char byte(double x) {
-  return static_cast<unsigned char>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
-}
+using Eigen::Vector3f, Eigen::Vector4f;
 
-/// Points with a colour each, and whatever is drawn on them.
-struct Colored {
-  vtkNew<vtkPolyData> data;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkUnsignedCharArray> colors;
-  vtkNew<vtkActor> actor;
+constexpr float floor_darkness = 0.42f;  // of a full shadow
 
-  Colored() {
-    points->SetDataTypeToFloat();
-    colors->SetNumberOfComponents(3);
-    colors->SetName("color");
-    data->SetPoints(points);
-    data->GetPointData()->SetScalars(colors);
-    auto* look = actor->GetProperty();
-    look->SetAmbient(0.26);
-    look->SetDiffuse(0.82);
-    look->SetSpecular(0.12);
-    look->SetSpecularPower(24);
+/// A thing's number in each tile that it may be seen in: those of tile t are names[first[t]] … names[first[t + 1]].
+struct Bins {
+  int columns, rows;
+  std::vector<std::uint32_t> first, names;
+
+  Bins(int width, int height)
+      : columns((samples * width + Tile::width - 1) / Tile::width),
+        rows((samples * height + Tile::height - 1) / Tile::height) {}
+
+  /// Calls with every tile that the box of samples touches.
+  template <class Use>
+  void each(const std::array<int, 4>& box, Use&& use) const {
+    for (int row = box[1] / Tile::height; row <= (box[3] - 1) / Tile::height; ++row)
+      for (int column = box[0] / Tile::width; column <= (box[2] - 1) / Tile::width; ++column)
+        use(static_cast<std::size_t>(row * columns + column));
   }
-  vtkIdType add(const Vector& p, const Rgb& c) {
-    const unsigned char rgb[3] = {byte(c.r), byte(c.g), byte(c.b)};
-    colors->InsertNextTypedTuple(rgb);
-    return points->InsertNextPoint(p.data());
-  }
-  void clear() {
-    points->Reset();
-    colors->Reset();
-  }
-  void changed() {
-    points->Modified();
-    colors->Modified();
-    data->Modified();
-    actor->SetVisibility(points->GetNumberOfPoints() > 0);
+
+  /// `order`: numbers of the things that are in view.
+  template <class Thing>
+  void fill(const std::vector<Thing>& things, const std::vector<std::uint32_t>& order) {
+    first.assign(static_cast<std::size_t>(columns * rows) + 1, 0);
+    for (const auto i : order) each(things[i].box, [&](std::size_t tile) { ++first[tile + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    names.resize(first.back());
+    auto next = first;
+    for (const auto i : order) each(things[i].box, [&](std::size_t tile) { names[next[tile]++] = i; });
   }
 };
 
-/// Averages blocks of samples x samples; alpha is multiplied in, so a plain mean is right.
-void shrink(const image::Image& large, image::Image& small, int samples) {
-  const int count = samples * samples;
-  for (int y = 0; y < small.height; ++y) {
-    std::uint8_t* to = small.pixel(0, y);
-    for (int x = 0; x < small.width; ++x, to += 4)
-      for (int c = 0; c < 4; ++c) {
-        int sum = count / 2;
-        for (int j = 0; j < samples; ++j) {
-          const std::uint8_t* from = large.pixel(samples * x, samples * y + j) + c;
-          for (int i = 0; i < samples; ++i) sum += from[4 * i];
+template <class Thing>
+std::vector<std::uint32_t> in_view(const std::vector<Thing>& things) {
+  std::vector<std::uint32_t> order;
+  for (std::size_t i = 0; i < things.size(); ++i)
+    if (things[i].is_in_view()) order.push_back(static_cast<std::uint32_t>(i));
+  return order;
+}
+
+/// A pane as the eye has it.
+struct SeenPane {
+  std::vector<Eigen::Vector2d> corners;  ///< pixels, y down
+  Eigen::Vector3d normal;                ///< right, up, depth; inside the pane, normal . place = offset
+  double offset, depth;
+  Vector3f color;
+  float alpha;
+
+  /// Depth beyond that of the eye's centre where the line of sight meets it, infinite where it does not.
+  float at(const Eye& eye, double x, double y) const {
+    constexpr float far = std::numeric_limits<float>::infinity();
+    bool left = true, right = true;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector2d a = corners[i], b = corners[(i + 1) % corners.size()];
+      const double side = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+      left = left && side <= 0, right = right && side >= 0;
+    }
+    const double slant = normal.dot(sight(eye, x, y));
+    if ((!left && !right) || slant == 0) return far;
+    return static_cast<float>(offset / slant - eye.distance);
+  }
+};
+
+std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(255 * x + 0.5f, 0.f, 255.f)); }
+
+/// One picture while it is drawn.
+class Drawing {
+ public:
+  Drawing(const SolidContent& content, const Eye& eye, const SolidLook& look, int width, int height)
+      : content_(content),
+        eye_(eye),
+        look_(look),
+        width_(width),
+        height_(height),
+        ball_bins_(width, height),
+        rod_bins_(width, height),
+        colors_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Vector4f::Zero()) {
+    balls_.reserve(content.balls.size());
+    for (const Ball& ball : content.balls) balls_.emplace_back(ball, eye, width, height);
+    for (const Rod& rod : content.rods) rods_.emplace_back(rod, eye, width, height);
+    auto order = in_view(balls_);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return balls_[a].nearest != balls_[b].nearest ? balls_[a].nearest < balls_[b].nearest : a < b;
+    });
+    ball_bins_.fill(balls_, order);
+    rod_bins_.fill(rods_, in_view(rods_));
+    if (look.occlusion > 0) surfaces_.emplace(width, height);
+    if (!content.panes.empty()) see_panes();
+  }
+
+  void draw(bool all) {
+    const Shading shading(content_, balls_, rods_, eye_, look_);
+    const auto tile = std::make_unique<Tile>(eye_);
+    for (int row = 0; row < ball_bins_.rows; ++row)
+      for (int column = 0; column < ball_bins_.columns; ++column) {
+        const auto number = static_cast<std::size_t>(row * ball_bins_.columns + column);
+        tile->start(column * Tile::width, row * Tile::height);
+        for (auto k = ball_bins_.first[number]; k < ball_bins_.first[number + 1]; ++k) {
+          const auto name = ball_bins_.names[k];
+          if (!all && tile->is_full(balls_[name].nearest)) break;  // those that follow are farther
+          tile->add(balls_[name], name, all);
         }
-        to[c] = static_cast<std::uint8_t>(sum / count);
+        for (auto k = rod_bins_.first[number]; k < rod_bins_.first[number + 1]; ++k)
+          tile->add(rods_[rod_bins_.names[k]],
+                    static_cast<std::uint32_t>(balls_.size()) + rod_bins_.names[k]);
+        shade(*tile, shading, column * Tile::width / samples, row * Tile::height / samples);
       }
   }
-}
+
+  void finish(image::Image& into) const {
+    if (into.width != width_ || into.height != height_) into = image::Image(width_, height_);
+    std::vector<float> light;
+    if (surfaces_) {
+      constexpr double reach = 2.2;  // radii: across a gap between grains, to the next grain's far side
+      light = ambient_light(*surfaces_, eye_, reach * look_.occlusion);
+    }
+    std::optional<FloorShadow> shadow;
+    if (content_.floor) shadow.emplace(*content_.floor, content_.balls, eye_);
+    const auto alpha = static_cast<float>(look_.ground_alpha);
+    const Vector4f ground{static_cast<float>(look_.ground.r) * alpha,
+                          static_cast<float>(look_.ground.g) * alpha,
+                          static_cast<float>(look_.ground.b) * alpha, alpha};
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t i = index(x, y);
+        Vector4f below = ground;
+        if (shadow && colors_[i].w() < 1) {
+          const float dark = floor_darkness * shadow->at(x + 0.5, y + 0.5);
+          below = (1 - dark) * below + Vector4f(0, 0, 0, dark);
+        }
+        Vector4f color = colors_[i];
+        if (!light.empty()) color.head<3>() *= light[i];
+        color += (1 - color.w()) * below;
+        if (!before_.empty()) color = before_[i] + (1 - before_[i].w()) * color;
+        std::uint8_t* to = into.pixel(x, y);
+        for (int c = 0; c < 4; ++c) to[c] = byte(color[c]);
+      }
+  }
+
+ private:
+  const SolidContent& content_;
+  const Eye& eye_;
+  const SolidLook& look_;
+  int width_, height_;
+  std::vector<SeenBall> balls_;
+  std::vector<SeenRod> rods_;
+  std::vector<SeenPane> panes_;  ///< the farthest first
+  Bins ball_bins_, rod_bins_;
+  std::vector<Vector4f> colors_;  ///< of balls and rods; alpha multiplied in
+  std::vector<Vector4f> before_;  ///< of panes, which cover the rest
+  std::optional<Surfaces> surfaces_;
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  void see_panes() {
+    before_.assign(colors_.size(), Vector4f::Zero());
+    for (const Pane& pane : content_.panes) {
+      if (pane.corners.size() < 3) continue;
+      SeenPane seen;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      std::vector<Eigen::Vector3d> places;
+      for (const auto& corner : pane.corners) {
+        seen.corners.push_back(eye_.seen(corner));
+        places.push_back(eye_.coordinates(corner));
+        sum += places.back();
+      }
+      seen.normal = (places[1] - places[0]).cross(places[2] - places[0]);
+      seen.offset = seen.normal.dot(places[0]), seen.depth = sum.z() / static_cast<double>(places.size());
+      seen.color = Eigen::Vector3d(pane.color.r, pane.color.g, pane.color.b).cast<float>();
+      seen.alpha = static_cast<float>(pane.alpha);
+      panes_.push_back(std::move(seen));
+    }
+    std::stable_sort(panes_.begin(), panes_.end(),
+                     [](const SeenPane& a, const SeenPane& b) { return a.depth > b.depth; });
+  }
+
+  /// The pixels of a tile whose first is (left, top).
+  void shade(const Tile& tile, const Shading& shading, int left, int top) {
+    const int right = std::min(width_, left + Tile::width / samples),
+              bottom = std::min(height_, top + Tile::height / samples);
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < right; ++x) {
+        std::array<std::uint32_t, samples * samples> names;
+        std::array<float, samples * samples> depths;
+        for (int k = 0; k < samples * samples; ++k) {
+          const int sx = samples * (x - left) + k % samples, sy = samples * (y - top) + k / samples;
+          names[static_cast<std::size_t>(k)] = tile.name(sx, sy);
+          depths[static_cast<std::size_t>(k)] = tile.depth(sx, sy);
+        }
+        shade_pixel(names, shading, x, y);
+        if (!panes_.empty()) cover_pixel(depths, x, y);
+      }
+  }
+
+  void shade_pixel(const std::array<std::uint32_t, samples * samples>& names, const Shading& shading, int x,
+                   int y) {
+    const std::size_t i = index(x, y);
+    const auto keep = [&](const Shaded& s) {
+      if (surfaces_ && s.depth < surfaces_->depths[i])
+        surfaces_->depths[i] = s.depth, surfaces_->normals[i] = s.normal;
+    };
+    if (std::all_of(names.begin(), names.end(), [&](auto name) { return name == names[0]; })) {
+      if (names[0] == Tile::nothing) return;
+      const auto s = shading.at(names[0], x + 0.5, y + 0.5);
+      colors_[i] = Vector4f(s.color.x(), s.color.y(), s.color.z(), 1);
+      return keep(s);
+    }
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (names[k] == Tile::nothing) continue;
+      const double sx = (static_cast<double>(k % samples) + 0.5) / samples,
+                   sy = (static_cast<double>(k / samples) + 0.5) / samples;
+      const auto s = shading.at(names[k], x + sx, y + sy);
+      colors_[i] += Vector4f(s.color.x(), s.color.y(), s.color.z(), 1) / static_cast<float>(names.size());
+      keep(s);
+    }
+  }
+
+  void cover_pixel(const std::array<float, samples * samples>& depths, int x, int y) {
+    for (const SeenPane& pane : panes_) {
+      float seen = 0;
+      for (std::size_t k = 0; k < depths.size(); ++k)
+        if (pane.at(eye_, x + (static_cast<double>(k % samples) + 0.5) / samples,
+                    y + (static_cast<double>(k / samples) + 0.5) / samples) < depths[k])
+          seen += 1.f / static_cast<float>(depths.size());
+      if (seen == 0) continue;
+      const float alpha = seen * pane.alpha;
+      auto& below = before_[index(x, y)];
+      below = (1 - alpha) * below + alpha * Vector4f(pane.color.x(), pane.color.y(), pane.color.z(), 1);
+    }
+  }
+};
 
 }  // namespace
 
-struct SolidScene::Inside {
-  OffscreenContext& context;
-  int width, height;
-  vtkNew<vtkOpenGLRenderer> renderer;
-  Colored balls, rods;
-  vtkNew<vtkOpenGLSphereMapper> ball_mapper;
-  vtkNew<vtkFloatArray> radii, normals;
-  vtkNew<vtkOpenGLPolyDataMapper> rod_mapper;
-  image::Image large;
-
-  Inside(OffscreenContext& c, int w, int h) : context(c), width(w), height(h) {}
-
-  void add_rod(const Rod& rod, vtkCellArray* triangles);
-};
-
-SolidScene::SolidScene(OffscreenContext& context, int width, int height, Rgb ground, double ground_alpha)
-    : inside_(std::make_unique<Inside>(context, width, height)) {
-  auto& in = *inside_;
-  in.radii->SetName("radius");  // the mapper reads float whatever it is
-  in.balls.data->GetPointData()->AddArray(in.radii);
-  in.ball_mapper->SetInputData(in.balls.data);
-  in.ball_mapper->SetScaleArray("radius");
-  in.ball_mapper->SetColorModeToDirectScalars();
-  in.balls.actor->SetMapper(in.ball_mapper);
-  in.normals->SetNumberOfComponents(3);
-  in.rods.data->GetPointData()->SetNormals(in.normals);
-  in.rod_mapper->SetInputData(in.rods.data);
-  in.rod_mapper->SetColorModeToDirectScalars();
-  in.rods.actor->SetMapper(in.rod_mapper);
-
-  auto* renderer = in.renderer.Get();
-  renderer->SetBackground(ground.r * ground_alpha, ground.g * ground_alpha, ground.b * ground_alpha);
-  renderer->SetBackgroundAlpha(ground_alpha);
-  renderer->AutomaticLightCreationOff();
-  // the key from the upper left behind the eye, and a weak one from the other side that opens the shadows
-  const auto light = [&](double x, double y, double z, double intensity) {
-    vtkNew<vtkLight> lamp;
-    lamp->SetLightTypeToCameraLight();
-    lamp->SetPosition(x, y, z);
-    lamp->SetFocalPoint(0, 0, 0);
-    lamp->SetIntensity(intensity);
-    renderer->AddLight(lamp);
-  };
-  light(-0.55, 0.9, 1, 0.88);
-  light(0.9, 0.1, 0.7, 0.25);
-  renderer->AddActor(in.balls.actor);
-  renderer->AddActor(in.rods.actor);
-  context.window()->AddRenderer(renderer);
-}
-
-SolidScene::~SolidScene() = default;
-
-void SolidScene::look(const Eye& eye, std::array<double, 2> depth) {
-  auto* camera = inside_->renderer->GetActiveCamera();
-  Vector position;
-  for (std::size_t c = 0; c < 3; ++c) position[c] = eye.centre[c] + eye.distance * eye.towards[c];
-  camera->SetPosition(position.data());
-  camera->SetFocalPoint(eye.centre.data());
-  camera->SetViewUp(eye.up.data());
-  camera->SetViewAngle(2 * std::atan(inside_->height / 2.0 / eye.focal) * 180 / std::numbers::pi);
-  camera->SetWindowCenter(1 - 2 * eye.at.x / inside_->width, 2 * eye.at.y / inside_->height - 1);
-  camera->SetClippingRange(std::max(depth[0], 0.01 * eye.distance), depth[1]);
-}
-
-void SolidScene::occlude(double radius) {
-  vtkNew<vtkLightsPass> lights;
-  vtkNew<vtkOpaquePass> opaque;
-  vtkNew<vtkRenderPassCollection> passes;
-  passes->AddItem(lights);
-  passes->AddItem(opaque);
-  vtkNew<vtkSequencePass> sequence;
-  sequence->SetPasses(passes);
-  vtkNew<vtkCameraPass> camera;
-  camera->SetDelegatePass(sequence);
-  vtkNew<vtkSSAOPass> occlusion;
-  occlusion->SetRadius(2.5 * radius);
-  occlusion->SetBias(0.02 * radius);
-  occlusion->SetKernelSize(32);
-  occlusion->BlurOn();
-  occlusion->SetDelegatePass(camera);
-  inside_->renderer->SetPass(occlusion);
-}
-
-void SolidScene::Inside::add_rod(const Rod& rod, vtkCellArray* triangles) {
-  constexpr int sides = 14;
-  Vector along;
-  double length = 0;
-  for (std::size_t c = 0; c < 3; ++c) along[c] = rod.to[c] - rod.from[c], length += along[c] * along[c];
-  length = std::sqrt(length);
-  if (!(length > 0)) return;
-  for (double& x : along) x /= length;
-  // two directions across: the coordinate axis that is most across, made square
-  std::size_t least = 0;
-  for (std::size_t c = 1; c < 3; ++c)
-    if (std::abs(along[c]) < std::abs(along[least])) least = c;
-  Vector a{}, b;
-  a[least] = 1;
-  for (std::size_t c = 0; c < 3; ++c) a[c] -= along[least] * along[c];
-  const double norm = std::sqrt(1 - along[least] * along[least]);
-  for (double& x : a) x /= norm;
-  for (std::size_t c = 0; c < 3; ++c)
-    b[c] = along[(c + 1) % 3] * a[(c + 2) % 3] - along[(c + 2) % 3] * a[(c + 1) % 3];
-  const double slope = (rod.radius_from - rod.radius_to) / length;
-  vtkIdType first = 0;
-  for (int i = 0; i < sides; ++i) {
-    const double angle = 2 * std::numbers::pi * i / sides;
-    Vector out, from, to, normal;
-    for (std::size_t c = 0; c < 3; ++c) {
-      out[c] = std::cos(angle) * a[c] + std::sin(angle) * b[c];
-      from[c] = rod.from[c] + rod.radius_from * out[c], to[c] = rod.to[c] + rod.radius_to * out[c];
-      normal[c] = (out[c] + slope * along[c]) / std::hypot(1, slope);
-    }
-    const auto id = rods.add(from, rod.color);
-    rods.add(to, rod.color);
-    if (i == 0) first = id;
-    for (int k = 0; k < 2; ++k) normals->InsertNextTuple(normal.data());
-  }
-  for (vtkIdType i = 0; i < sides; ++i) {
-    const vtkIdType p = first + 2 * i, q = first + 2 * ((i + 1) % sides);
-    const vtkIdType one[3] = {p, q, p + 1}, two[3] = {q, q + 1, p + 1};
-    triangles->InsertNextCell(3, one);
-    triangles->InsertNextCell(3, two);
-    if (i >= 1 && i + 1 < sides) {  // the base, which an arrow's head shows
-      const vtkIdType base[3] = {first, q, p};
-      triangles->InsertNextCell(3, base);
-    }
-  }
-}
-
-void SolidScene::draw(const std::vector<Ball>& balls, const std::vector<Rod>& rods, image::Image& into) {
-  auto& in = *inside_;
-  in.balls.clear(), in.rods.clear();
-  in.radii->Reset(), in.normals->Reset();
-  vtkNew<vtkCellArray> vertices, triangles;
-  for (const Ball& ball : balls) {
-    const auto id = in.balls.add(ball.centre, ball.color);
-    in.radii->InsertNextValue(static_cast<float>(ball.radius));
-    vertices->InsertNextCell(1, &id);
-  }
-  for (const Rod& rod : rods) in.add_rod(rod, triangles);
-  in.balls.data->SetVerts(vertices);
-  in.rods.data->SetPolys(triangles);
-  in.radii->Modified(), in.normals->Modified();
-  in.balls.changed(), in.rods.changed();
-  in.context.draw(in.large);
-  if (into.width != in.width || into.height != in.height) into = image::Image(in.width, in.height);
-  shrink(in.large, into, samples);
+void SolidScene::draw(const SolidContent& content, image::Image& into, bool all) const {
+  Drawing drawing(content, eye_, look_, width_, height_);
+  drawing.draw(all);
+  drawing.finish(into);
 }
 
 }  // namespace chute::view

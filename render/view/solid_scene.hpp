@@ -1,65 +1,81 @@
 #pragma once
-#include <array>
-#include <memory>
+#include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "image/image.hpp"
-#include "plot/geometry.hpp"
 #include "view/color_map.hpp"
+#include "view/eye.hpp"
 
 namespace chute::view {
 
-class OffscreenContext;
-using Vector = std::array<double, 3>;
-
-/// How a space is seen: an eye that looks at `centre` with `up` upwards.
-struct Eye {
-  Vector centre{}, towards{0, -1, 0},
-      up{0, 0, 1};      ///< `towards` points from the centre to the eye, unit length
-  double distance = 1;  ///< from the centre, in the files' unit
-  double focal = 1;     ///< pixels per unit slope: a length l at distance D is focal l / D long
-  plot::Point at;       ///< where the centre is seen, pixels from the top left
-
-  /// The eye that sees a box fill `rect` (pixels) as well as can be; `zoom` > 1 is larger.
-  static Eye on_box(const std::array<double, 6>& box, Vector towards, Vector up, const plot::Rect& rect,
-                    double zoom);
-  /// Width / height of a box so seen.
-  static double aspect(const std::array<double, 6>& box, Vector towards, Vector up);
-  plot::Point seen(const Vector& point) const;
-  /// A direction at the centre as it is seen: x right, y down, length up to 1.
-  plot::Point seen_direction(const Vector& direction) const;
-};
-
 struct Ball {
-  Vector centre;
+  Eigen::Vector3d centre;
   double radius;
   Rgb color;
+  /// From the ball's own axes to the files'. Bands on three great circles show it; the zero quaternion: none.
+  Eigen::Quaternionf orientation{0, 0, 0, 0};
 };
 
-/// A round rod that may taper: a force, an arrow's shaft or head, an edge of the box.
+/// A small round mark on the surface of a ball, in `direction` from its centre.
+struct Spot {
+  std::size_t ball;
+  Eigen::Vector3d direction;
+};
+
+/// A round rod that may taper: a force, an arrow's shaft or head, a trail, an edge of the box.
 struct Rod {
-  Vector from, to;
+  Eigen::Vector3d from, to;
   double radius_from, radius_to;
   Rgb color;
 };
 
-/// Balls and rods in space, lit from above the eye; drawn at twice the size and averaged, for smooth edges.
+/// A flat convex polygon through which one sees what is behind it.
+struct Pane {
+  std::vector<Eigen::Vector3d> corners;
+  Rgb color;
+  double alpha;
+};
+
+/// A plane under everything that shows nothing but the shadow of the balls, out to where it fades.
+struct Floor {
+  Eigen::Vector3d centre, normal;  ///< of length 1
+  double radius;                   ///< beyond it, nothing
+};
+
+struct SolidContent {
+  std::vector<Ball> balls = {};
+  std::vector<Spot> spots = {};  ///< in the order of their balls
+  std::vector<Rod> rods = {};
+  std::vector<Pane> panes = {};
+  std::optional<Floor> floor = {};
+};
+
+/// How solids look, the same in all frames.
+struct SolidLook {
+  Rgb ground, ink;  ///< ink: of outlines and spots
+  double ground_alpha = 1;
+  double occlusion = 0;   ///< radius of a grain, whose neighbours darken it; 0: nothing is darkened
+  bool outlines = false;  ///< a dark line inside the rim of every ball and rod
+  Rgb spot{.84, .37, 0};
+};
+
+/// Balls, rods and panes in space, lit from above the eye, drawn by the processor: every pixel has four samples,
+/// every sample knows the nearest thing that it hits, and colours are worked out only for what is seen, once
+/// where all four hit the same. Arithmetic in a fixed order, so the same bytes on every machine.
 class SolidScene {
  public:
-  static constexpr int samples = 2;  ///< along each side of a pixel: the context must be that much larger
+  SolidScene(int width, int height, const SolidLook& look) : width_(width), height_(height), look_(look) {}
 
-  SolidScene(OffscreenContext& context, int width, int height, Rgb ground, double ground_alpha);
-  ~SolidScene();
-
-  /// `depth` is how far the nearest and the farthest thing are from the eye.
-  void look(const Eye& eye, std::array<double, 2> depth);
-  /// Darkens where grains are close to each other; `radius` is about a grain's.
-  void occlude(double radius);
-  void draw(const std::vector<Ball>& balls, const std::vector<Rod>& rods, image::Image& into);
+  void look(const Eye& eye) { eye_ = eye; }
+  /// Pixels with alpha multiplied in. `all`: look at every ball in every tile, also those that nearer ones hide;
+  /// the plain way, which gives the same picture and is there for tests.
+  void draw(const SolidContent& content, image::Image& into, bool all = false) const;
 
  private:
-  struct Inside;
-  std::unique_ptr<Inside> inside_;
+  int width_, height_;
+  SolidLook look_;
+  Eye eye_;
 };
 
 }  // namespace chute::view

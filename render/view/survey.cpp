@@ -5,18 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <deque>
+#include <future>
 #include <numbers>
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
-#include "read/contacts.hpp"
+#include "plot/style.hpp"
 #include "read/grain_frame.hpp"
+#include "read/network.hpp"
 
 namespace chute::view {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+/// More different values than this are numbers to be ordered, not kinds to be told apart by colour.
+constexpr std::size_t most_kinds = plot::color_count;
 
 /// Rounds away from zero to a plain number, a tenth larger on average: the ends of a colour bar should be
 /// readable.
@@ -60,15 +63,12 @@ double Surveyor::Sample::quantile(double q) {
   return values[static_cast<std::size_t>(k)];
 }
 
-double beyond_domain(const std::array<double, 6>& domain, double x) {
-  return std::max(domain[0] - x, x - domain[1]) / (copy_reach * (domain[1] - domain[0]));
+double beyond_domain(const Eigen::AlignedBox3d& domain, double x) {
+  const double from = domain.min().x(), to = domain.max().x();
+  return std::max(from - x, x - to) / (copy_reach * (to - from));
 }
 
-Surveyor::Surveyor(const FrameStyle& style) : style_(style) {
-  style_.check();
-  found_.bounds = {infinity, -infinity, infinity, -infinity, infinity, -infinity};
-  found_.turned = {infinity, -infinity, infinity, -infinity};
-}
+Surveyor::Surveyor(const FrameStyle& style) : style_(style) { style_.check(); }
 
 void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
   auto& s = found_;
@@ -87,24 +87,20 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
   s.has_times = s.has_times && (time || frame.time);
   s.times.push_back(time ? *time : frame.time.value_or(static_cast<double>(s.times.size())));
 
-  const double turn = style_.tilt ? s.slope : 0, cosine = std::cos(turn), sine = std::sin(turn);
-  const double period = style_.copies ? s.domain[1] - s.domain[0] : 0;
+  const Eigen::Rotation2Dd turn(style_.tilt ? -s.slope : 0);
+  const double period = style_.copies ? s.domain.sizes().x() : 0;
   const auto shifts = period > 0 ? std::vector<double>{0, -period, period} : std::vector<double>{0};
   const auto values = s.field.values(frame);
   const auto* velocity = frame.find(fields::velocity.name);
   bool any_moving = false, any_fixed = false;
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    const double r = frame.radius[i], position[3] = {frame.x[i], frame.y[i], frame.z[i]};
-    for (std::size_t c = 0; c < 3; ++c) {
-      s.bounds[2 * c] = std::min(s.bounds[2 * c], position[c] - r);
-      s.bounds[2 * c + 1] = std::max(s.bounds[2 * c + 1], position[c] + r);
-    }
-    const double u = cosine * frame.x[i] + sine * frame.y[i], v = cosine * frame.y[i] - sine * frame.x[i];
+    const double r = frame.radius[i];
+    const Eigen::Vector3d centre = frame.centre(i);
+    s.bounds.extend((centre.array() - r).matrix()).extend((centre.array() + r).matrix());
     for (const double shift : shifts) {
-      if (shift != 0 && beyond_domain(s.domain, frame.x[i] + shift) >= 1) continue;
-      const double a = u + cosine * shift, b = v - sine * shift;
-      s.turned = {std::min(s.turned[0], a - r), std::max(s.turned[1], a + r), std::min(s.turned[2], b - r),
-                  std::max(s.turned[3], b + r)};
+      if (shift != 0 && beyond_domain(s.domain, centre.x() + shift) >= 1) continue;
+      const Eigen::Vector2d seen = turn * Eigen::Vector2d(centre.x() + shift, centre.y());
+      s.turned.extend((seen.array() - r).matrix()).extend((seen.array() + r).matrix());
     }
     const bool fixed = frame.is_fixed(i);
     (fixed ? any_fixed : any_moving) = true;
@@ -112,10 +108,12 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
     if (fixed) continue;
     ++moving_, diameters_ += 2 * r;
     values_.add(values[i]);
+    if (s.field.names_kinds() && kinds_.size() <= most_kinds) kinds_.insert(std::llround(values[i]));
     if (velocity && velocity->components == 3)
       speeds_.add(std::hypot(velocity->at(i, 0), velocity->at(i, 1), velocity->at(i, 2)));
   }
   s.has_fixed = s.has_fixed || (any_fixed && any_moving);
+  if (style_.camera.follow) path_.see(frame, style_.camera.follow->id, s.times.back());
 }
 
 void Surveyor::choose_range() {
@@ -131,7 +129,8 @@ void Surveyor::choose_range() {
     s.high = end > 0 ? end : 1, s.low = -s.high, s.diverging = true;
   } else {
     s.high = values_.quantile(0.995), s.low = values_.quantile(0.005);
-    const bool from_zero = s.field.part == Field::Part::magnitude || (s.low >= 0 && s.low < 0.4 * s.high);
+    const bool from_zero =
+        s.field.part == ColorField::Part::magnitude || (s.low >= 0 && s.low < 0.4 * s.high);
     if (from_zero) s.low = 0, s.high = round_up(s.high);
     if (!(s.high > s.low))
       s.high = s.low != 0 ? s.low + std::abs(s.low) / 2 : 1, s.low -= s.low != 0 ? std::abs(s.low) / 2 : 0;
@@ -146,6 +145,8 @@ Survey Surveyor::finish() {
   auto& s = found_;
   if (s.dimensions == 3 && s.up_axis == 1 && std::abs(s.gravity[1]) <= std::abs(s.gravity[2])) s.up_axis = 2;
   choose_range();
+  if (!kinds_.empty() && kinds_.size() <= most_kinds) s.categories.assign(kinds_.begin(), kinds_.end());
+  if (style_.camera.follow) s.path = path_.smooth();
   s.diameter =
       moving_ ? diameters_ / static_cast<double>(moving_) : all_diameters_ / static_cast<double>(all_);
   s.speed = speeds_.quantile(0.99);
@@ -155,21 +156,41 @@ Survey Surveyor::finish() {
 }
 
 std::string Survey::describe() const {
+  const auto text = [](const Eigen::VectorXd& v) {
+    return fmt::format("{},", fmt::join(v.begin(), v.end(), ","));
+  };
   return fmt::format(
       "{} {} {} bounds={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
-      "diameter={} speed={} force={} fixed={:d} decimals={} times={:d}",
-      dimensions, up_axis, slope, fmt::join(bounds, ","), fmt::join(turned, ","), fmt::join(domain, ","),
-      fmt::join(gravity, ","), units, field.array, static_cast<int>(field.part), field.component, low, high,
-      diverging, exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times);
+      "diameter={} speed={} force={} fixed={:d} decimals={} times={:d} categories={}",
+      dimensions, up_axis, slope, text(bounds.min()) + text(bounds.max()),
+      text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity), units,
+      field.array, static_cast<int>(field.part), field.component, low, high, diverging, exceeds_low,
+      exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times, fmt::join(categories, ","));
 }
 
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
-              std::optional<double> radius, const std::function<void(std::size_t)>& tell) {
+              std::optional<double> radius, int jobs, const std::function<void(std::size_t)>& tell) {
+  std::vector<std::string> wanted{color_array(style.color), std::string(fields::velocity.name)};
+  if (style.camera.follow) wanted.emplace_back(fields::id.name);
+  struct Seen {
+    read::GrainFrame frame;
+    std::vector<read::ForceLink> links;
+  };
+  const auto read = [&](std::size_t i) {
+    const bool chains = style.chains && !frames[i].contacts.empty();
+    return Seen{read::read_frame(frames[i].path, radius, wanted),
+                chains ? read::read_network(frames[i].contacts) : std::vector<read::ForceLink>()};
+  };
   Surveyor surveyor(style);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    surveyor.see(read::read_frame(frames[i].path, radius), frames[i].time);
-    if (style.chains && !frames[i].contacts.empty())
-      for (const auto& contact : read::read_contacts(frames[i].contacts)) surveyor.see_force(contact.force);
+  // The first alone: VTK makes its tables then, which is not for threads. Later ones are read ahead.
+  std::deque<std::future<Seen>> ahead;
+  for (std::size_t i = 0, next = 1; i < frames.size(); ++i) {
+    const Seen seen = i == 0 ? read(0) : ahead.front().get();
+    if (i > 0) ahead.pop_front();
+    for (; next < frames.size() && next <= i + static_cast<std::size_t>(jobs); ++next)
+      ahead.push_back(std::async(jobs > 1 ? std::launch::async : std::launch::deferred, read, next));
+    surveyor.see(seen.frame, frames[i].time);
+    for (const auto& link : seen.links) surveyor.see_force(link.force);
     if (tell) tell(i + 1);
   }
   return surveyor.finish();

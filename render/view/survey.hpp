@@ -1,14 +1,15 @@
 #pragma once
-#include <array>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "read/run_frames.hpp"
-#include "view/field.hpp"
+#include "view/color_field.hpp"
 #include "view/frame_style.hpp"
+#include "view/path.hpp"
 #include "view/time_series.hpp"
 
 namespace chute::view {
@@ -19,16 +20,17 @@ struct Survey {
   int dimensions = 2;
   int up_axis = 1;   ///< the incline's normal: 1 (y) in the plane, else where gravity points most, or z
   double slope = 0;  ///< radians: gravity is turned that much from the normal, towards +x
-  std::array<double, 6> bounds{};  ///< of all grains, radii included: x0 x1 y0 y1 z0 z1, in the files' frame
-  std::array<double, 4> turned{};  ///< 2D: the same as seen in the picture (turned by the slope if tilted;
-                                   ///< periodic copies included if they are drawn)
-  std::array<double, 6> domain{};
-  std::array<double, 3> gravity{};
+  Eigen::AlignedBox3d bounds;  ///< of all grains, radii included, in the files' frame
+  Eigen::AlignedBox2d turned;  ///< 2D: the same as seen in the picture (turned by the slope if tilted;
+                               ///< periodic copies included if they are drawn)
+  Eigen::AlignedBox3d domain{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< as in GrainFrame
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::string units;
-  Field field;
+  ColorField field;
   bool diverging = false;                          ///< values of both signs
   double low = 0, high = 1;                        ///< colour range
   bool exceeds_low = false, exceeds_high = false;  ///< some values lie outside
+  std::vector<long long> categories;               ///< all values of a field that only names kinds, rising
   double diameter = 1;                             ///< mean of the moving grains (of all, if none moves)
   double speed = 0;                                ///< nearly the largest, for the length of arrows
   double force = 0;           ///< nearly the largest contact force, for the width of chains
@@ -36,6 +38,8 @@ struct Survey {
   std::vector<double> times;  ///< of each frame
   bool has_times = false;
   int time_decimals = 2;
+  /// What the camera follows at each time, smoothed over some frames; empty: it stands.
+  std::vector<Eigen::Vector3d> path;
   TimeSeries series;  ///< plotted beside the grains; empty: no plot
 
   /// All of the above that decides pixels but the series, as text.
@@ -45,12 +49,13 @@ struct Survey {
 /// How far copies are drawn beyond the periodic ends, in periods.
 inline constexpr double copy_reach = 0.16;
 /// How far outside `domain` in x, as a share of copy_reach; a copy is drawn if it is below 1.
-double beyond_domain(const std::array<double, 6>& domain, double x);
+double beyond_domain(const Eigen::AlignedBox3d& domain, double x);
 
-/// Reads every frame once. `tell` hears how many are done. InputError as read_frame; also if the field is
-/// missing.
+/// Reads every frame once, `jobs` at a time. `tell` hears how many are done. InputError as read_frame; also if
+/// the field is missing.
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
-              std::optional<double> radius = {}, const std::function<void(std::size_t)>& tell = {});
+              std::optional<double> radius = {}, int jobs = 1,
+              const std::function<void(std::size_t)>& tell = {});
 
 /// Collects frames that are already in memory; what survey() is made of.
 class Surveyor {
@@ -75,6 +80,8 @@ class Surveyor {
   Survey found_;
   bool first_ = true;
   Sample values_, speeds_, forces_;
+  std::set<long long> kinds_;
+  PathFinder path_;
   double diameters_ = 0, all_diameters_ = 0;
   std::size_t moving_ = 0, all_ = 0;
   void choose_range();

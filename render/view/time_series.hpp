@@ -17,10 +17,10 @@ struct TimeSeries {
   bool empty() const { return columns.empty(); }
 };
 
-/// Reads `columns` of a table that has a column `time`, such as a run's series.csv. InputError, one line that
+/// Reads the columns `names` of a table that has a column `time`, such as a run's series.csv. InputError, one line that
 /// names the file, if a column is missing (with the nearest name), there are fewer than two rows, or times do
 /// not rise.
-TimeSeries read_time_series(const std::filesystem::path& table, const std::vector<std::string>& columns);
+TimeSeries read_time_series(const std::filesystem::path& table, const std::vector<std::string>& names);
 
 /// What an axis or a legend says of a column, with its unit: "mean velocity $\\bar{v}_x$ ($\\sqrt{gd}$)".
 /// `units` as in VTK files; a column that chute does not write keeps its name.

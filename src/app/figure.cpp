@@ -63,8 +63,7 @@ using Computation = std::function<figures::FigureTable(const figures::FigureCont
 /// The built-in computation of that name. InputError at the recipe's key if there is none.
 const Computation& find_computation(const std::string& name, const fs::path& recipe) {
   std::vector<std::string> known;
-  for (const auto* list :
-       {&experiments::computed_figures(), &theory::theory_figures()}) {
+  for (const auto* list : {&experiments::computed_figures(), &theory::theory_figures()}) {
     if (const auto found = list->find(name); found != list->end()) return found->second;
     for (const auto& [id, computation] : *list) known.push_back(id);
   }

@@ -66,14 +66,13 @@ std::vector<std::string> option_names(const CLI::App& verb) {
 }  // namespace
 
 std::string manual_page(const CLI::App& app) {
-  const auto name = app.get_name();
-  auto description = app.get_description();
+  const auto& name = app.get_name();
   auto page = fmt::format(".TH {} 1 \"\" \"{} {}\"\n.SH NAME\n{} \\- {}\n", "CHUTE", name, run::version, name,
                           "simulate grains on a rough incline and draw what they do");
   page += fmt::format(".SH SYNOPSIS\n\\fB{0}\\fR [OPTIONS] VERB ...\n.br\n", name);
   for (const auto* verb : shown_verbs(app))
     page += fmt::format("\\fB{} {}\\fR {}\n.br\n", name, verb->get_name(), plain(arguments_of(*verb)));
-  page += fmt::format(".SH DESCRIPTION\n{}\n.SH OPTIONS\n", plain(description));
+  page += fmt::format(".SH DESCRIPTION\n{}\n.SH OPTIONS\n", plain(app.get_description()));
   add_options(page, app);
   for (const auto* verb : shown_verbs(app)) {
     page += fmt::format(".SH {} {}\n{}.\n", name, verb->get_name(), plain(verb->get_description()));
@@ -97,7 +96,7 @@ std::string manual_page(const CLI::App& app) {
 }
 
 std::string bash_completion(const CLI::App& app) {
-  const auto name = app.get_name();
+  const auto& name = app.get_name();
   std::vector<std::string> verbs;
   std::string cases;
   for (const auto* verb : shown_verbs(app)) {

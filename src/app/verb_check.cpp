@@ -2,6 +2,7 @@
 
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
+#include "common/error.hpp"
 #include "experiments/experiment.hpp"
 #include "run/facts.hpp"
 #include "run/session.hpp"
@@ -42,12 +43,17 @@ void add_check(CLI::App& app) {
   auto* verb = app.add_subcommand("check", "Validate scenes; print each complete, with what follows from it");
   struct Arguments {
     std::vector<std::string> scenes, settings;
+    bool keys = false;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_option("scenes", a->scenes, "scene files (TOML)")->required();
+  verb->add_option("scenes", a->scenes, "scene files (TOML)");
+  verb->add_flag("--keys", a->keys, "print every key that a scene can have, with what it means");
   verb->add_option("--set", a->settings, "change a key: --set grains.count=100")->allow_extra_args(false);
   verb->footer("Example: chute check scenes/chute-2d.toml");
   verb->callback([a] {
+    if (a->keys) fmt::print("{}", scene::keys_table());
+    if (!a->keys && a->scenes.empty())
+      throw InputError("check: name a scene file, or --keys for what can stand in one");
     for (const auto& file : a->scenes) check(file, a->settings);
   });
 }

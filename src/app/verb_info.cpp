@@ -7,6 +7,7 @@
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/fields.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
 #include "run/flow.hpp"
@@ -24,19 +25,35 @@ std::string span_text(const std::vector<double>& values) {
   return low > high ? "nothing known" : fmt::format("{:.6g} … {:.6g}", low, high);
 }
 
-void show_arrays(const char* where, const std::vector<read::PointArray>& arrays) {
+/// The unit of an array that chute's own files have, in the units that the file names.
+std::string unit_of(const std::string& name, const std::string& units) {
+  const auto look = [&](const auto& known) -> std::string {
+    for (const auto& field : known)
+      if (field.name == name) return std::string(units == "SI" ? field.si_unit : field.reduced);
+    return "";
+  };
+  for (const auto& unit :
+       {look(fields::grain_fields), look(fields::impact_fields), look(fields::contact_fields)})
+    if (!unit.empty()) return unit;
+  return "";
+}
+
+void show_arrays(const char* where, const std::vector<read::PointArray>& arrays, const std::string& units) {
   for (const auto& array : arrays)
-    fmt::print("  {:<6} {:<18} {} component{}  {}\n", where, array.name, array.components,
-               array.components == 1 ? " " : "s", span_text(array.values));
+    fmt::print("  {:<6} {:<18} {} component{}  {} {}\n", where, array.name, array.components,
+               array.components == 1 ? " " : "s", span_text(array.values), unit_of(array.name, units));
 }
 
 void show_vtk(const fs::path& path) {
   const auto points = read::parse_vtk(read_file(path), path);
-  fmt::print("{}: {} points, {} lines\n", path.string(), points.x.size(), points.lines.size());
+  fmt::print("{}: {} points, {} lines and polygons\n", path.string(), points.x.size(), points.cells.size());
   fmt::print("  place  x {}   y {}   z {}\n", span_text(points.x), span_text(points.y), span_text(points.z));
-  show_arrays("point", points.point_arrays);
-  show_arrays("cell", points.cell_arrays);
-  show_arrays("field", points.field_arrays);
+  std::string units;
+  for (const auto& [name, text] : points.field_texts)
+    if (name == fields::units) units = text;
+  show_arrays("point", points.point_arrays, units);
+  show_arrays("cell", points.cell_arrays, units);
+  show_arrays("field", points.field_arrays, units);
   for (const auto& [name, text] : points.field_texts) fmt::print("  field  {:<18} {}\n", name, text);
 }
 

@@ -24,8 +24,9 @@ struct RenderArguments {
   int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int trails = 0;
   double radius = 0;
-  bool tilt = false, arrows = false, chains = false, copies = false, occlusion = false, no_spin = false,
-       bare = false, quiet = false;
+  std::vector<std::string> cuts;
+  bool tilt = false, arrows = false, chains = false, copies = false, impacts = false, occlusion = false,
+       outlines = false, floor = false, box = false, no_spin = false, bare = false, quiet = false;
 };
 
 volatile std::sig_atomic_t stop_asked = 0;
@@ -66,9 +67,33 @@ void read_size(const std::string& text, view::FrameStyle& style) {
   style.width = static_cast<int>(sides[0]), style.height = static_cast<int>(sides[1]);
 }
 
+/// `follow`, `follow:mean`, `follow:ID`; false if it is something else.
+bool read_follow(const std::string& text, view::Camera& camera) {
+  const std::string word = "follow";
+  if (!text.starts_with(word)) return false;
+  const std::string whom = text.substr(word.size());
+  view::Follow follow;
+  if (!whom.empty() && whom != ":mean") {
+    long long id = 0;
+    const char* const end = whom.data() + whom.size();
+    const auto [stop, error] = std::from_chars(whom.data() + 1, end, id);
+    require(whom[0] == ':' && error == std::errc() && stop == end, "--camera", text,
+            "follow, follow:mean or follow:ID with the id of a grain");
+    follow.id = id;
+  }
+  camera.follow = follow;
+  return true;
+}
+
 void read_camera(const std::string& text, view::Camera& camera) {
+  if (const auto comma = text.find(','); comma != std::string::npos) {
+    read_camera(text.substr(0, comma), camera), read_camera(text.substr(comma + 1), camera);
+    return;
+  }
+  if (read_follow(text, camera)) return;
   constexpr const char* expected =
-      "X0:X1:Y0:Y1 (the part of a plane that is shown) or AZIMUTH:ELEVATION[:ZOOM] (degrees, in space)";
+      "X0:X1:Y0:Y1 (the part of a plane that is shown), AZIMUTH:ELEVATION[:ZOOM] (degrees, in space), "
+      "follow[:ID|mean], or one of the first two and the last with a comma between";
   const auto values = numbers("--camera", text, ':', expected);
   require(values.size() >= 2 && values.size() <= 4 && all_given(values), "--camera", text, expected);
   if (values.size() == 4) {
@@ -77,6 +102,17 @@ void read_camera(const std::string& text, view::Camera& camera) {
     camera.azimuth = values[0], camera.elevation = values[1];
     if (values.size() == 3) camera.zoom = values[2];
   }
+}
+
+/// `x>3`, `z<0.5`: what lies there is cut away.
+view::Cut read_cut(const std::string& text) {
+  constexpr const char* expected = "x, y or z, then > or <, then a number, such as x>3";
+  const auto axis = std::string_view("xyz").find(text.empty() ? ' ' : text[0]);
+  require(text.size() > 2 && axis != std::string_view::npos && (text[1] == '>' || text[1] == '<'), "--cut",
+          text, expected);
+  const auto values = numbers("--cut", text.substr(2), ',', expected);
+  require(values.size() == 1 && std::isfinite(values[0]), "--cut", text, expected);
+  return {static_cast<int>(axis), text[1] == '>', values[0]};
 }
 
 view::FrameRange read_frames(const std::string& text) {
@@ -118,6 +154,8 @@ view::RenderJob job_of(const RenderArguments& a) {
   if (!a.frames.empty()) job.frames = read_frames(a.frames);
   style.background = read_background(a.background);
   style.tilt = a.tilt, style.arrows = a.arrows, style.chains = a.chains, style.copies = a.copies;
+  style.impacts = a.impacts, style.outlines = a.outlines, style.floor = a.floor, style.box = a.box;
+  for (const auto& cut : a.cuts) style.cuts.push_back(read_cut(cut));
   style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
   job.movie = a.movie, job.output = a.output;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
@@ -176,14 +214,22 @@ void add_render(CLI::App& app) {
   verb->add_option("--size", a->size, "pixels, WIDTHxHEIGHT; default 1920x1080");
   verb->add_option("--frames", a->frames, "one frame, or FIRST:END:STEP with END not included");
   verb->add_option("--camera", a->camera,
-                   "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all");
+                   "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all. Also, or "
+                   "after a comma, follow[:ID|mean]: it goes along with a grain or the mean");
   verb->add_option("--background", a->background, "white, dark or transparent")->capture_default_str();
   verb->add_flag("--tilt", a->tilt, "turn the picture so that gravity points down");
   verb->add_flag("--arrows", a->arrows, "velocity arrows");
   verb->add_flag("--chains", a->chains,
                  "contact forces as lines, wide where strong (needs the run's contacts)");
   verb->add_flag("--copies", a->copies, "faded copies beyond the periodic ends");
+  verb->add_flag("--impacts", a->impacts, "marks where beads of the bed were hit so far (needs impacts.vtp)");
+  verb->add_option("--cut", a->cuts,
+                   "leave out grains beyond a place: x>VALUE, z<VALUE; several are possible")
+      ->delimiter(',');
   verb->add_flag("--occlusion", a->occlusion, "ambient occlusion (in space)");
+  verb->add_flag("--outlines", a->outlines, "a dark rim around every grain (in space)");
+  verb->add_flag("--floor", a->floor, "shadows on a floor below (in space)");
+  verb->add_flag("--box", a->box, "edges of the periodic box (in space)");
   verb->add_option("--trails", a->trails, "draw where each grain was in the N frames before");
   verb->add_option(
           "--plot", a->plot,
@@ -191,7 +237,7 @@ void add_render(CLI::App& app) {
           "beside the grains, drawn up to the frame's time")
       ->delimiter(',');
   verb->add_option("--series", a->series, "another table for --plot, with a column time");
-  verb->add_flag("--no-spin", a->no_spin, "no spin marks on discs");
+  verb->add_flag("--no-spin", a->no_spin, "no marks that turn with the grains");
   verb->add_flag("--bare", a->bare, "the grains alone: no colour bar, time, scale and gravity");
   verb->add_option("--radius", a->radius, "radius of all grains, for files without");
   verb->add_option("-j,--jobs", a->jobs, "processes that draw at once; the pictures are the same")

@@ -75,7 +75,9 @@ void add_run(CLI::App& app) {
   verb->add_flag("--resume", a->resume, "go on with an interrupted run");
   verb->add_flag("--force", a->force, "replace a run that is already there");
   verb->add_flag("--quiet", a->quiet, "no progress line");
-  verb->footer("Example: chute run scenes/demo.toml -o out/demo --set incline.angle='\"20 deg\"'");
+  std::string methods = "Methods (engine.method); their keys: chute check --keys\n";
+  for (const auto& kind : engines::list()) methods += fmt::format("  {:<15} {}\n", kind.word, kind.text);
+  verb->footer(methods + "Example: chute run scenes/demo.toml -o out/demo --set incline.angle='\"20 deg\"'");
   verb->callback([a] { run(*a); });
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace chute::beds {
 namespace {
@@ -70,13 +69,14 @@ std::vector<Crowd::Pair> Crowd::close_pairs(double skin) const {
 }
 
 /// As if all radii were `room` times as large.
-void Crowd::push_apart(double room, int most) {
+double Crowd::push_apart(double room, int most) {
   const double skin = 0.5 * widest();
   std::vector<Pair> pairs;
-  double moved = skin;  // since the pairs were found, of the fastest
+  double deepest = 0, moved = skin;  // since the pairs were found, of the fastest
   for (int k = 0; k < most; ++k) {
     if (2 * moved >= skin) pairs = close_pairs(skin), moved = 0;
-    double deepest = 0, farthest = 0;
+    deepest = 0;
+    double farthest = 0;
     for (const auto [a, b] : pairs) {
       auto &p = sheet_.place[a], &q = sheet_.place[b];
       const auto way = sheet_.way(p, q);
@@ -96,6 +96,7 @@ void Crowd::push_apart(double room, int most) {
     if (deepest < tolerance) break;
   }
   for (auto& p : sheet_.place) p = sheet_.wrapped(p);
+  return deepest;
 }
 
 /// The middles of holes wider than `reach`, the widest first, no two closer than `apart`.
@@ -118,40 +119,26 @@ std::vector<Place> Crowd::largest_holes(const Tessellation& t, double reach, dou
   return holes;
 }
 
-/// False if there are no holes, or nothing to fill them with.
-bool Crowd::move_into_holes(double reach) {
-  const auto t = tessellate(sheet_);
-  const double apart = independent * widest();
-  const auto holes = largest_holes(t, reach, apart, size());
-  std::vector<std::size_t> crowded(size());
-  std::iota(crowded.begin(), crowded.end(), 0);
-  std::sort(crowded.begin(), crowded.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(t.cell_area[a], a) < std::pair(t.cell_area[b], b);
-  });
-  std::vector<Place> changed = holes;
-  std::size_t filled = 0;
-  for (const std::size_t donor : crowded) {
-    if (filled == holes.size()) break;
-    const Place from = sheet_.place[donor];
-    if (std::any_of(changed.begin(), changed.end(),
-                    [&](const Place& p) { return squared(sheet_.way(p, from)) < apart * apart; }))
-      continue;
-    changed.push_back(from);
-    sheet_.place[donor] = holes[filled++];
+bool Crowd::draw_in(double reach) {
+  constexpr int most_rounds = 400, few_pushes = 10;
+  constexpr double further = 1e-3;  // than needed, in parts of the reach: or the last bit would take for ever
+  for (int round = 0; round < most_rounds; ++round) {
+    const auto t = tessellate(sheet_);
+    bool holes = false;
+    for (const auto& v : t.vertices) {
+      if (v.distance <= reach) continue;
+      holes = true;
+      const double draw = (v.distance - (1 - further) * reach) / v.distance;
+      for (const auto i : v.of) {
+        auto& p = sheet_.place[i];
+        const auto way = sheet_.way(p, v.place);
+        p = {p[0] + draw * way[0], p[1] + draw * way[1]};
+      }
+    }
+    const double deepest = push_apart(1, few_pushes);
+    if (!holes && deepest < tolerance) return true;
   }
-  return filled > 0;
-}
-
-bool Crowd::fill_holes(double reach) {
-  constexpr int little = 5, most_rounds = 60;  // pushes after a round; rounds while discs still overlap
-  constexpr double more_room = 0.002, most_room = 1.1;  // from round to round, when they do no more
-  for (int round = 0; round < most_rounds && move_into_holes(reach); ++round) push_apart(1, little);
-  push_apart();
-  for (double room = 1 + more_room; room < most_room && move_into_holes(reach); room += more_room) {
-    push_apart(room, 4 * little);
-    push_apart();
-  }
-  return largest_holes(tessellate(sheet_), reach, 0, 1).empty();
+  return false;
 }
 
 void Crowd::add_in_holes(std::size_t count, double radius) {

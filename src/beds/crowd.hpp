@@ -22,11 +22,12 @@ class Crowd {
   /// that has been tried long enough: a plane may be too full for it.
   void push_apart() { push_apart(1, most_pushes); }
 
-  /// As long as there is a hole wider than `reach` (a point farther than that from every place), moves a disc there from
-  /// where it is most crowded, and pushes apart a little; in the end, until none overlap. A disc that is taken from among
-  /// others that do not overlap leaves a hole where it was: so this is best begun while they still do, and where holes remain
-  /// afterwards, discs are pushed for ever more room than they need, up to a tenth. False if holes remain even so.
-  bool fill_holes(double reach);
+  /// Draws the discs around every hole wider than `reach` towards its middle and pushes overlapping ones apart, in turn,
+  /// until there are neither holes nor overlaps. False if that does not come to an end: the plane is too empty.
+  bool draw_in(double reach);
+
+  /// All discs get this radius.
+  void resize(double radius) { radius_.assign(radius_.size(), radius); }
 
   /// Adds discs of this radius in the largest holes, as many as asked for, pushing apart after each.
   void add_in_holes(std::size_t count, double radius);
@@ -38,8 +39,8 @@ class Crowd {
   /// So often discs are pushed apart before it is taken for hopeless. Planes as full as the thesis's need some dozens.
   static constexpr int most_pushes = 2000;
 
-  void push_apart(double room, int most);
-  bool move_into_holes(double reach);
+  /// How deep the deepest overlap was in the last round, as a part of the two radii.
+  double push_apart(double room, int most);
 
   struct Pair {
     std::size_t a, b;

@@ -67,7 +67,7 @@ Sheet RandomPlane::arrange(const Site& site) const {
     }
   }
   crowd.add_in_holes(beads(), radius());
-  crowd.fill_holes(widest_hole * radius());
+  crowd.draw_in(widest_hole * radius());
   return crowd.sheet();
 }
 

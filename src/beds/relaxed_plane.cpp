@@ -15,7 +15,9 @@ Sheet RelaxedPlane::arrange(const Site& site) const {
     const double x = random.uniform(0, length()), y = random.uniform(0, width());
     crowd.add({x, y}, radius() * (1 + disorder * std::clamp(random.normal(), -farthest, farthest)));
   }
-  crowd.fill_holes(widest_hole * radius());
+  crowd.push_apart();
+  crowd.resize(radius());
+  crowd.draw_in(hole * radius());
   return crowd.sheet();
 }
 

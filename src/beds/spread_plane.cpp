@@ -125,8 +125,7 @@ Sheet SpreadPlane::arrange(const Site& site) const {
   Crowd crowd(length(), width());
   const double fit = length() / reached(front);
   for (const auto& bead : front) crowd.add({bead.place[0] * fit, bead.place[1]}, radius());
-  crowd.push_apart();
-  crowd.fill_holes(widest_hole * radius());
+  crowd.draw_in(widest_hole * radius());
   return crowd.sheet();
 }
 

@@ -57,7 +57,10 @@ Tessellation divided(const Sheet& sheet, double margin, double& farthest) {
   for (const auto& vertex : diagram.vertices()) {
     const Place at{vertex.x() * unit, vertex.y() * unit};
     if (at[0] < 0 || at[0] >= sheet.length || at[1] < 0 || at[1] >= sheet.width) continue;
-    t.vertices.push_back({at, distance_of(at, images.place[vertex.incident_edge()->cell()->source_index()])});
+    const auto* edge = vertex.incident_edge();
+    Tessellation::Vertex found{at, distance_of(at, images.place[edge->cell()->source_index()]), {}};
+    for (auto& of : found.of) of = images.of[edge->cell()->source_index()], edge = edge->rot_next();
+    t.vertices.push_back(found);
     farthest = std::max(farthest, t.vertices.back().distance);
   }
   for (const auto& cell : diagram.cells()) {

@@ -23,6 +23,7 @@ struct Tessellation {
   struct Vertex {
     std::array<double, 2> place;
     double distance;
+    std::array<std::size_t, 3> of;  ///< three of the places that are so far
   };
   /// Two places whose cells share a border.
   struct Edge {

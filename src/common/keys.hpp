@@ -36,7 +36,12 @@ class KeyLister {
   void value(std::string_view key, std::int64_t v, Range range = any_number, Text text = {}) {
     add(key, "whole number", range_text(range), fmt::format("{}", v), text);
   }
-  void value(std::string_view key, bool v, Text text = {}) { add(key, "bool", "", v ? "true" : "false", text); }
+  // Without these two a number with a text but no range would be taken for a bool.
+  void value(std::string_view key, double v, Text text) { value(key, v, any_number, text); }
+  void value(std::string_view key, std::int64_t v, Text text) { value(key, v, any_number, text); }
+  void value(std::string_view key, bool v, Text text = {}) {
+    add(key, "true or false", "", v ? "true" : "false", text);
+  }
   void value(std::string_view key, const std::string& v, Text text = {}) { add(key, "text", "", v, text); }
   void value(std::string_view key, const std::vector<double>& v, Range range = any_number, Text text = {}) {
     add(key, "numbers", range_text(range), v.empty() ? "" : fmt::format("{}", v), text);
@@ -44,9 +49,13 @@ class KeyLister {
   void value(std::string_view key, const std::vector<std::string>& v, Text text = {}) {
     add(key, "texts", "", v.empty() ? "" : fmt::format("{}", v), text);
   }
+  void value(std::string_view key, const std::vector<std::vector<double>>&, Text text = {}) {
+    add(key, "places", "", "", text);
+  }
   template <class T>
   void value(std::string_view key, const T& v, const char* text) {
-    if constexpr (std::same_as<T, double> || std::same_as<T, std::int64_t> || std::same_as<T, std::vector<double>>)
+    if constexpr (std::same_as<T, double> || std::same_as<T, std::int64_t> ||
+                  std::same_as<T, std::vector<double>>)
       value(key, v, any_number, Text(text));
     else
       value(key, v, Text(text));
@@ -103,6 +112,8 @@ class KeyLister {
   }
   static std::string range_text(Range range) { return range.describe() == "finite" ? "" : range.describe(); }
   void add(std::string_view key, std::string type, std::string allowed, std::string preset, Text text) {
+    // Where the text says what a missing key means, the value that stands for "missing" would contradict it.
+    if (std::string_view(text.words).find("default") != std::string_view::npos) preset.clear();
     keys_.push_back({path(key), std::move(type), std::move(allowed), std::move(preset), text.words});
   }
 };
@@ -193,8 +204,8 @@ void choose_kind(TomlReader& a, std::string_view key, Chosen<Base>& chosen, cons
   const auto which = static_cast<std::size_t>(a.choose(key, current, words));
   if (list[which].word != chosen.word()) chosen = Chosen<Base>(list[which]);
 }
-template <class Base>
-void choose_kind(TomlWriter& a, std::string_view key, Chosen<Base>& chosen, const Catalogue<Base>&) {
+template <class Archive, class Base>
+void choose_kind(Archive& a, std::string_view key, Chosen<Base>& chosen, const Catalogue<Base>&) {
   a.value(key, chosen.word());
 }
 

@@ -234,6 +234,24 @@ void TomlReader::value(std::string_view key, std::vector<std::string>& target, T
   }
 }
 
+void TomlReader::value(std::string_view key, std::vector<std::vector<double>>& target, Text) {
+  know(key);
+  const toml::node* node = table_->get(key);
+  if (!node) return;
+  const toml::array* places = node->as_array();
+  if (!places) fail(key, fmt::format("{} is not a list of places, [[0, 0], [1, 0]]", shown(*node)));
+  target.clear();
+  for (const toml::node& item : *places) {
+    const toml::array* numbers = item.as_array();
+    if (!numbers) fail(key, fmt::format("{} in the list is not a place, [0, 0]", shown(item)));
+    auto& place = target.emplace_back();
+    for (const toml::node& number : *numbers) {
+      if (!number.is_number()) fail(key, fmt::format("{} in the list is not a number", shown(number)));
+      place.push_back(*number.value<double>());
+    }
+  }
+}
+
 int TomlReader::choose(std::string_view key, int current, std::span<const std::string_view> words) {
   know(key);
   if (!has(key)) return current;
@@ -289,6 +307,9 @@ std::string toml_text(const std::string& word) {
   return std::move(out).str();
 }
 template <class T>
+std::string toml_list(const std::vector<T>& values);
+std::string toml_text(const std::vector<double>& place) { return toml_list(place); }
+template <class T>
 std::string toml_list(const std::vector<T>& values) {
   std::vector<std::string> texts;
   for (const auto& v : values) texts.push_back(toml_text(v));
@@ -310,6 +331,9 @@ void TomlWriter::value(std::string_view key, const std::vector<double>& values, 
   line(key, toml_list(values));
 }
 void TomlWriter::value(std::string_view key, const std::vector<std::string>& values, Text) {
+  line(key, toml_list(values));
+}
+void TomlWriter::value(std::string_view key, const std::vector<std::vector<double>>& values, Text) {
   line(key, toml_list(values));
 }
 

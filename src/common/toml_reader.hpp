@@ -53,6 +53,7 @@ class TomlReader {
   static constexpr bool reading = true;
 
   bool has(std::string_view key) const { return table_->contains(key); }
+  bool has_table(std::string_view key) const { return has(key) && table_->get(key)->is_table(); }
 
   void value(std::string_view key, double& target, Range range = any_number, Text = {});
   void value(std::string_view key, std::int64_t& target, Range range = any_number, Text = {});
@@ -60,6 +61,8 @@ class TomlReader {
   void value(std::string_view key, std::string& target, Text = {});
   void value(std::string_view key, std::vector<double>& target, Range range = any_number, Text = {});
   void value(std::string_view key, std::vector<std::string>& target, Text = {});
+  /// A list of places: [[0, 0], [1, 0]].
+  void value(std::string_view key, std::vector<std::vector<double>>& target, Text = {});
   /// Numbers without a range may have a text right away.
   template <class T>
   void value(std::string_view key, T& target, const char* text) {
@@ -179,6 +182,7 @@ class TomlWriter {
   void value(std::string_view key, const std::string& value, Text = {});
   void value(std::string_view key, const std::vector<double>& values, Range = any_number, Text = {});
   void value(std::string_view key, const std::vector<std::string>& values, Text = {});
+  void value(std::string_view key, const std::vector<std::vector<double>>& values, Text = {});
   template <class T>
   void value(std::string_view key, const T& v, const char*) {
     value(key, v);

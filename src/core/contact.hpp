@@ -17,14 +17,14 @@ enum class ContactState : int { unknown = 0, stick = 1, slide = 2 };
 /// A contact as every engine tells of it and everybody reads it: stresses, networks, files, figures. Vectors have the
 /// components of files; in 2D the third is 0.
 struct Contact {
-  std::int64_t a = 0, b = 0;              ///< ids, a < b, and a a moving grain; b may be a wall (see wall_id)
-  std::array<double, 3> point{};          ///< where the surfaces touch, halfway through the overlap
-  std::array<double, 3> normal{};         ///< n, from a to b (1.10)
-  std::array<double, 3> branch{};         ///< from a's centre to b's, by the nearest image; to the wall's surface
-  double overlap = 0;                     ///< ξ; the negative gap of rigid grains
-  std::array<double, 3> force{};          ///< on b: F_n n + F_s; of hard grains the impulse over the time it took
-  double normal_force = 0;                ///< F_n, repulsion positive
-  double shear_force = 0;                 ///< 2D: along s = (n_y, −n_x); 3D: |F_s|
+  std::int64_t a = 0, b = 0;       ///< ids, a < b, and a a moving grain; b may be a wall (see wall_id)
+  std::array<double, 3> point{};   ///< where the surfaces touch, halfway through the overlap
+  std::array<double, 3> normal{};  ///< n, from a to b (1.10)
+  std::array<double, 3> branch{};  ///< from a's centre to b's, by the nearest image; to the wall's surface
+  double overlap = 0;              ///< ξ; the negative gap of rigid grains
+  std::array<double, 3> force{};   ///< on b: F_n n + F_s; of hard grains the impulse over the time it took
+  double normal_force = 0;         ///< F_n, repulsion positive
+  double shear_force = 0;          ///< 2D: along s = (n_y, −n_x); 3D: |F_s|
   ContactState state = ContactState::unknown;
 
   template <class Archive>

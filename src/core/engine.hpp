@@ -16,16 +16,20 @@ namespace chute {
 /// Where the energy is and where it went, since the start of the run. What gravity put in is what is stored
 /// plus what was dissipated; `residual` is what the integration got wrong.
 struct EnergyAccount {
-  double translation = 0;   ///< ½ Σ m v²
-  double rotation = 0;      ///< ½ Σ I ω²
-  double elastic = 0;       ///< stored in contacts
-  double gravity_work = 0;  ///< Σ m g·(way since the start)
-  double normal_loss = 0;   ///< taken by normal contact forces
-  double shear_loss = 0;    ///< taken by tangential contact forces
-  double start = 0;         ///< translation + rotation + elastic at the start
+  double translation = 0;      ///< ½ Σ m v²
+  double rotation = 0;         ///< ½ Σ I ω²
+  double elastic = 0;          ///< stored in contacts
+  double gravity_work = 0;     ///< Σ m g·(way since the start)
+  double normal_loss = 0;      ///< taken by normal contact forces
+  double shear_loss = 0;       ///< taken by tangential contact forces
+  double wall_work = 0;        ///< done on the grains by walls that move
+  double projection_work = 0;  ///< potential energy that moving rigid grains out of each other put in
+  double start = 0;            ///< translation + rotation + elastic at the start
 
   double stored() const { return translation + rotation + elastic; }
-  double residual() const { return gravity_work - (stored() - start) - normal_loss - shear_loss; }
+  double residual() const {
+    return gravity_work + wall_work + projection_work - (stored() - start) - normal_loss - shear_loss;
+  }
 
   /// Adds what places and velocities tell: the energies of motion, and gravity's work since the moving grains
   /// were at `start_place` (counted on through the periods).

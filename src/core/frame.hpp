@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -15,12 +16,22 @@ Vec<D> gravity_on_incline(double g, double theta) {
   return gravity;
 }
 
+/// An incline that is tilted at a steady rate from one angle to another, where it stays.
+struct Tilt {
+  double from = 0, to = 0, rate = 0;  ///< rate ≥ 0, per time
+  double gravity = 0;                 ///< g
+  double angle(double t) const {
+    return from < to ? std::min(to, from + rate * t) : std::max(to, from - rate * t);
+  }
+};
+
 /// The frame of reference of an incline, for whoever measures along and across it, whatever the dimension: x goes
 /// downhill, the last coordinate away from the bed, and in 3D y across.
 struct Frame {
   int dimensions = 2;
-  double footprint = 0;     ///< length of the line in 2D, area of the plane in 3D: what layers are averaged over
-  double bead_spacing = 1;  ///< way from bead to bead of the bed; a mean grain's diameter where there is no bed
+  double footprint = 0;  ///< length of the line in 2D, area of the plane in 3D: what layers are averaged over
+  double bead_spacing =
+      1;  ///< way from bead to bead of the bed; a mean grain's diameter where there is no bed
 
   static constexpr std::size_t downhill = 0;
   std::size_t normal() const { return static_cast<std::size_t>(dimensions) - 1; }

@@ -166,9 +166,10 @@ struct GrainsView {
   std::array<std::span<const double>, 4> orientation;  ///< in 2D only [0], an angle
   std::span<const double> radius, mass, inertia;
   std::span<const int> material;
-  std::array<std::span<const int>, 3> wraps;  ///< of the moving grains; with `period`, the way around the domain
-  std::array<double, 3> period{};             ///< 0 where the domain is not periodic
-  std::vector<FieldView> fields;              ///< those that files hold, but for `force`
+  std::array<std::span<const int>, 3>
+      wraps;                       ///< of the moving grains; with `period`, the way around the domain
+  std::array<double, 3> period{};  ///< 0 where the domain is not periodic
+  std::vector<FieldView> fields;   ///< those that files hold, but for `force`
 
   std::size_t size() const { return radius.size(); }
 
@@ -192,7 +193,8 @@ struct GrainsView {
 
 /// The view of these grains at `time`, under these forces; it points into both.
 template <int D>
-GrainsView view_of(const Grains<D>& grains, std::span<const Array> force, const Domain<D>& domain, double time) {
+GrainsView view_of(const Grains<D>& grains, std::span<const Array> force, const Domain<D>& domain,
+                   double time) {
   GrainsView view;
   view.dimensions = D;
   view.time = time;

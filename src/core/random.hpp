@@ -9,7 +9,14 @@ namespace chute {
 
 /// What random numbers are for. Each purpose has numbers of its own, so that asking for more of one kind does not
 /// change the others: the same seed gives the same bed under another start.
-enum class Purpose : std::uint8_t { bed = 1, sizes = 2, start = 3, stochastic = 4, bootstrap = 5, engine = 6 };
+enum class Purpose : std::uint8_t {
+  bed = 1,
+  sizes = 2,
+  start = 3,
+  stochastic = 4,
+  bootstrap = 5,
+  engine = 6
+};
 
 /// Random numbers that are a function of where they are used, not of what was drawn before: Philox4x32-10 (Salmon et
 /// al. 2011, doi:10.1145/2063384.2063405) of the key `seed` and the counter (purpose, item, step, draw). An object of

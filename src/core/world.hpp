@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/domain.hpp"
@@ -13,18 +14,22 @@ namespace chute {
 template <int D>
 struct Surroundings {
   Domain<D> domain;
-  Vec<D> gravity{};
+  Vec<D> gravity{};            ///< at the start
+  std::optional<Tilt> tilt{};  ///< how it changes
   std::vector<Wall<D>> walls;
   double floor = -std::numeric_limits<double>::infinity();  ///< a grain below (last coordinate) is lost
   Frame frame;
+
+  Vec<D> gravity_at(double t) const {
+    return tilt ? gravity_on_incline<D>(tilt->gravity, tilt->angle(t)) : gravity;
+  }
+  const Surroundings& surroundings() const { return *this; }
 };
 
 /// What every method starts from.
 template <int D>
 struct World : Surroundings<D> {
   Grains<D> grains;  ///< the moving ones, then the bed
-
-  const Surroundings<D>& surroundings() const { return *this; }
 };
 
 }  // namespace chute

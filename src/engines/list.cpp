@@ -1,4 +1,5 @@
 #include "engines/event/event_method.hpp"
+#include "engines/hybrid/hybrid_method.hpp"
 #include "engines/soft/soft_method.hpp"
 #include "engines/stochastic/stochastic_method.hpp"
 
@@ -6,6 +7,7 @@ namespace chute::engines {
 
 Catalogue<Method>& list() {
   static Catalogue<Method> all{kind_of<Method, soft::SoftMethod>(), kind_of<Method, event::EventMethod>(),
+                               kind_of<Method, hybrid::HybridMethod>(),
                                kind_of<Method, stochastic::StochasticMethod>()};
   return all;
 }

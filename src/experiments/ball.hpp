@@ -2,10 +2,11 @@
 #include <functional>
 #include <limits>
 
+#include "common/error.hpp"
 #include "core/sphere.hpp"
+#include "engines/soft/soft_engine.hpp"
 #include "laws/collision.hpp"
 #include "laws/list.hpp"
-#include "engines/soft/soft_engine.hpp"
 
 /// Grains in free space, for experiments with a few of them.
 namespace chute::experiments {
@@ -50,8 +51,21 @@ soft::SoftSetup<D> free_space(const laws::ContactLaws& laws, double time_step, d
   return setup;
 }
 
-/// Called after every step, with the time since the surfaces of the first contact met.
+/// Called at the start and after every step, with the time since the surfaces of the first contact met.
 template <int D>
 using Watch = std::function<void(const soft::SoftEngine<D>& engine, double time)>;
+
+/// The one loop of all experiments: step by step until `done()`, which is asked after each. WorkError that says
+/// `otherwise` if that takes more than `patience` of time. The surfaces first meet at time `lead`.
+template <int D, class Done>
+void step_until(soft::SoftEngine<D>& engine, const Watch<D>& watch, double lead, double patience,
+                const char* otherwise, const Done& done) {
+  if (watch) watch(engine, engine.time() - lead);
+  do {
+    if (engine.time() > patience) throw WorkError(otherwise);
+    engine.advance_to(engine.step() + 1);
+    if (watch) watch(engine, engine.time() - lead);
+  } while (!done());
+}
 
 }  // namespace chute::experiments

@@ -77,17 +77,15 @@ ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
   if (!trace && !watch)
     engine.advance_to(static_cast<std::int64_t>(0.4 * steps));  // no contact ends so early
   bool touched = false;
-  for (std::int64_t touching = 0;;) {
-    engine.advance_to(engine.step() + 1);
+  const double patience = engine.time() + 1000 * steps * setup.time_step;
+  step_until<D>(engine, watch, lead, patience, "the grains do not part", [&] {
     const auto contacts = engine.contacts();
-    if (watch) watch(engine, engine.time() - lead);
     touched |= !contacts.empty();
-    if (contacts.empty() && (touched || engine.time() > 2 * lead)) break;
     if (trace && !contacts.empty())
       outcome.trace.push_back(
           {engine.time() - lead, contacts[0].overlap, contacts[0].normal_force, contacts[0].shear_force});
-    if (++touching > static_cast<std::int64_t>(1000 * steps)) throw WorkError("the grains do not part");
-  }
+    return contacts.empty() && (touched || engine.time() > 2 * lead);
+  });
   outcome.contact_time = engine.time() - lead;
   outcome.i = after(engine.state(), 0, i);
   outcome.j = after(engine.state(), 1, j);

@@ -34,9 +34,7 @@ BrakeFailureOutcome skim(const BrakeFailure& experiment) {
   std::set<std::int64_t> touched;
   const double end = (experiment.count - 1) * spacing + reach;
   const double patience = 100 * (end - first) / experiment.ball.velocity[0] + 1000 * experiment.steps * dt;
-  for (;;) {
-    engine.advance_to(engine.step() + 1);
-    if (experiment.watch) experiment.watch(engine, engine.time() - lead);
+  step_until<2>(engine, experiment.watch, lead, patience, "the ball does not leave the wall", [&] {
     const auto contacts = engine.contacts();
     for (const auto& contact : contacts) {
       touched.insert(contact.b);
@@ -45,9 +43,8 @@ BrakeFailureOutcome skim(const BrakeFailure& experiment) {
     }
     const auto place = engine.state().place(0);
     const bool outside = place[0] > end || place[0] < 2 * first - reach || std::abs(place[1]) > reach;
-    if (contacts.empty() && outside) break;
-    if (engine.time() > patience) throw WorkError("the ball does not leave the wall");
-  }
+    return contacts.empty() && outside;
+  });
   outcome.touched = static_cast<int>(touched.size());
   outcome.ball = experiment.ball;
   outcome.ball.velocity = engine.state().speed(0);

@@ -36,15 +36,12 @@ ColumnOutcome hit_wall(const Column& column) {
   add_ball(grains, wall, {});
   soft::SoftEngine<2> engine(std::move(grains), free_space<2>(column.laws, dt, 2 * grain.radius));
 
-  const auto steps = static_cast<std::int64_t>(std::ceil(column.steps_per_contact));
-  const double patience = 1000.0 * column.count * (1 + column.gap_time), lead = gap / column.speed;
-  do {
-    for (std::int64_t k = 0; k < steps; k += column.watch ? 1 : steps) {
-      engine.advance_to(engine.step() + (column.watch ? 1 : steps));
-      if (column.watch) column.watch(engine, engine.time() - lead);
-    }
-    if (engine.time() > patience * t_n) throw WorkError("the column does not disperse");
-  } while (!engine.contacts().empty() || !dispersing(engine.state()));
+  const double patience = 1000.0 * column.count * (1 + column.gap_time) * t_n, lead = gap / column.speed;
+  const auto between =
+      static_cast<std::int64_t>(std::ceil(column.steps_per_contact));  // looks: one per contact time
+  step_until<2>(engine, column.watch, lead, patience, "the column does not disperse", [&] {
+    return engine.step() % between == 0 && engine.contacts().empty() && dispersing(engine.state());
+  });
 
   double momentum = 0, energy = 0;
   for (const double v : std::span(engine.state().velocity[0]).first(engine.state().moving))

@@ -49,11 +49,6 @@ static void describe(Archive& a, GrainSpec& grain) {
 }
 
 template <class Archive>
-static void describe(Archive& a, Sampling& sampling) {
-  a.required("every", sampling.every, positive);
-}
-
-template <class Archive>
 static void check_angle(const Archive& a, const Experiment& e) {
   a.check(e.psi.has_value() + e.angle.has_value() + e.sine.has_value() == 1, "kind",
           "needs one of psi = 1.5, angle = \"60 deg\" and sin = 0.9: the impact angle");
@@ -259,7 +254,8 @@ std::vector<Fact> facts(const Experiment& e) {
   if (e.kind == Kind::oblique_impact || e.kind == Kind::brake_failure)
     list.push_back({"theta", e.theta() * 180 / std::numbers::pi, "deg", "impact angle (1.15)"});
   const laws::NamedPair pair{"", "that pair", e.pair(), e.reach()};
-  for (const auto& facts : {laws::impact_facts(e.contact, si, {pair}), laws::step_facts(e.contact, si, pair, e.step())})
+  for (const auto& facts :
+       {laws::impact_facts(e.contact, si, {pair}), laws::step_facts(e.contact, si, pair, e.step())})
     list.insert(list.end(), facts.begin(), facts.end());
   if (e.kind == Kind::column)
     list.push_back({"detachment below", 1.0 / static_cast<double>(e.count), "", "t_0/t_n: 1/N"});

@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "core/fact.hpp"
 #include "experiments/binary_impact.hpp"
 #include "experiments/brake_failure.hpp"
 #include "experiments/column.hpp"
 #include "experiments/pushed_cylinder.hpp"
-#include "core/fact.hpp"
 #include "laws/contact_spec.hpp"
+#include "measure/outputs.hpp"
 #include "scene/scene.hpp"
 
 /// Experiments as scenes: a table [experiment] in place of incline, bed, grains and run, with the contact
@@ -22,10 +23,6 @@ struct GrainSpec {
   std::optional<double> mass, density;
   double spin = 0;  ///< anticlockwise
   bool fixed = false;
-};
-
-struct Sampling {
-  double every;
 };
 
 struct Experiment {
@@ -50,8 +47,8 @@ struct Experiment {
   double steps_per_contact = 500;
 
   laws::ContactSpec contact;
-  Sampling series{0};              ///< default: a hundred rows per contact time, or a thousand
-  std::optional<Sampling> frames;  ///< not of the cylinder
+  measure::Every series;                 ///< default: a hundred rows per contact time, or a thousand
+  std::optional<measure::Every> frames;  ///< not of the cylinder
 
   double theta() const;  ///< ϑ, radians; 0 of normal impacts
   laws::ContactLaws laws() const { return contact.laws(pair()); }

@@ -10,7 +10,7 @@
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "io/csv.hpp"
-#include "io/vtk_files.hpp"
+#include "measure/outputs.hpp"
 #include "run/record.hpp"
 #include "run/version.hpp"
 
@@ -34,38 +34,45 @@ std::string units_text(const Experiment& e) {
   return std::string(scene::units_words[static_cast<std::size_t>(e.units)]);
 }
 
-/// Watches an engine: a row of the series every so many steps, and frames.
+/// Watches an engine: a row of the series every so many steps, and frames as every run has them.
 class Recorder {
  public:
   using Row = std::function<std::vector<double>(const Engine2&)>;
-  Recorder(const Experiment& e, std::vector<std::string> columns, Row row, Outcome& into)
-      : row_(std::move(row)), into_(into), step_(e.step()), series_(steps(e.series.every)) {
+  Recorder(const Experiment& e, const std::filesystem::path& directory, std::vector<std::string> columns,
+           Row row, Outcome& into)
+      : row_(std::move(row)),
+        into_(into),
+        run_(std::make_shared<measure::RunContext>()),
+        due_(e.series.from, e.series.every, e.step()) {
     into_.columns = std::move(columns);
     into_.columns.insert(into_.columns.begin(), "time");
-    if (e.frames) frames_ = steps(e.frames->every);
-    facts_.units = units_text(e);
+    run_->facts.units = units_text(e);
+    run_->time_step = e.step();
+    run_->directory = directory;
+    measure::FramesOutput frames;
+    frames.frames = e.frames;
+    if (!e.frames) return;
+    frames_ = std::move(frames.make(*run_).front());
+    frames_due_ = run_->schedule(e.frames->from, e.frames->every);
   }
 
   void operator()(const Engine2& engine, double time) {
-    if (engine.step() % series_ == 0) {
+    if (due_.index_at(engine.step()) >= 0) {
       auto row = row_(engine);
       row.insert(row.begin(), time);
       into_.series.push_back(std::move(row));
     }
-    if (frames_ > 0 && engine.step() % frames_ == 0) {
-      into_.frames.push_back(io::grains_vtp(engine.grains(), facts_));
-      into_.frame_times.push_back(engine.time());
-    }
+    if (frames_due_.index_at(engine.step()) < 0) return;
+    frames_->look({engine, {}, {}});
+    frames_->write({});
   }
 
  private:
   Row row_;
   Outcome& into_;
-  double step_;
-  std::int64_t series_, frames_ = 0;
-  io::RunFacts facts_;
-
-  std::int64_t steps(double every) const { return std::max<std::int64_t>(1, std::llround(every / step_)); }
+  std::shared_ptr<measure::RunContext> run_;  // shared: a watch is copied
+  measure::Schedule due_, frames_due_;
+  std::shared_ptr<measure::Observer> frames_;
 };
 
 /// Overlap and forces of a pair, its relative velocity along n and s, and the spins.
@@ -93,12 +100,13 @@ double loss_exponent(const laws::ContactLaws& laws, double v, laws::Pair pair) {
   return std::log((1 - b) / (1 - a)) / (2 * std::log(step));
 }
 
-Outcome impact(const Experiment& e, bool record) {
+Outcome impact(const Experiment& e, const Recording& record) {
   Outcome made;
   auto set_up = e.impact();
   const UnitsOf in(e.units);
   if (record)
-    set_up.watch = Recorder(e, {"overlap", "F_n", "F_s", "v_n", "v_s", "omega_i", "omega_j"}, pair_row, made);
+    set_up.watch =
+        Recorder(e, *record, {"overlap", "F_n", "F_s", "v_n", "v_s", "omega_i", "omega_j"}, pair_row, made);
   const auto done = collide(set_up);
   const auto law = laws::normal_impact(set_up.laws, set_up.approach(), set_up.pair());
   const auto add = [&](const char* name, double value, const std::string& unit, const char* meaning) {
@@ -134,7 +142,7 @@ Outcome impact(const Experiment& e, bool record) {
   return made;
 }
 
-Outcome column(const Experiment& e, bool record) {
+Outcome column(const Experiment& e, const Recording& record) {
   Outcome made;
   auto set_up = e.column_set_up();
   const auto mean = [N = e.count, v_0 = e.velocity](const Engine2& engine) -> std::vector<double> {
@@ -146,7 +154,7 @@ Outcome column(const Experiment& e, bool record) {
     const auto n = static_cast<double>(N);
     return {static_cast<double>(engine.contacts().size()), momentum / n, energy / n};
   };
-  if (record) set_up.watch = Recorder(e, {"contacts", "momentum", "energy"}, mean, made);
+  if (record) set_up.watch = Recorder(e, *record, {"contacts", "momentum", "energy"}, mean, made);
   const auto done = hit_wall(set_up);
   const auto pair = laws::normal_impact(set_up.laws, e.velocity, e.pair());
   made.results = {
@@ -158,7 +166,7 @@ Outcome column(const Experiment& e, bool record) {
   return made;
 }
 
-Outcome brake_failure(const Experiment& e, bool record) {
+Outcome brake_failure(const Experiment& e, const Recording& record) {
   Outcome made;
   auto set_up = e.brake_failure();
   const UnitsOf in(e.units);
@@ -175,7 +183,8 @@ Outcome brake_failure(const Experiment& e, bool record) {
             overlap,
             static_cast<double>(contacts.size())};
   };
-  if (record) set_up.watch = Recorder(e, {"x", "y", "v_x", "v_y", "omega", "overlap", "contacts"}, row, made);
+  if (record)
+    set_up.watch = Recorder(e, *record, {"x", "y", "v_x", "v_y", "omega", "overlap", "contacts"}, row, made);
   const auto done = skim(set_up);
   const double t_n = laws::normal_impact(set_up.laws, set_up.approach(), set_up.pair()).contact_time;
   made.results = {
@@ -192,7 +201,7 @@ Outcome brake_failure(const Experiment& e, bool record) {
   return made;
 }
 
-Outcome pushed_cylinder(const Experiment& e, bool record) {
+Outcome pushed_cylinder(const Experiment& e, const Recording& record) {
   Outcome made;
   const auto pushes = e.pushes();
   const int every =
@@ -234,14 +243,6 @@ void write_files(const Experiment& e, const Outcome& outcome, const run::RunDire
                  {"name", "unit", "value"});
   for (const auto& r : outcome.results) result.row({r.name, r.unit}, {r.value});
   write_atomically(directory.file("result.csv"), result.text());
-  if (outcome.frames.empty()) return;
-  std::filesystem::create_directories(directory.file("frames"));
-  std::vector<std::string> names;
-  for (const auto& frame : outcome.frames) {
-    names.push_back(fmt::format("frames/{:06}.vtp", names.size()));
-    write_atomically(directory.file(names.back()), frame);
-  }
-  write_atomically(directory.file("frames.pvd"), io::pvd(outcome.frame_times, names));
 }
 
 }  // namespace
@@ -258,7 +259,7 @@ double Outcome::operator[](const std::string& name) const {
                                fmt::join(known, ", ")));
 }
 
-Outcome perform(const Experiment& e, bool record) {
+Outcome perform(const Experiment& e, const Recording& record) {
   Outcome outcome = e.kind == Kind::column            ? column(e, record)
                     : e.kind == Kind::brake_failure   ? brake_failure(e, record)
                     : e.kind == Kind::pushed_cylinder ? pushed_cylinder(e, record)
@@ -272,7 +273,7 @@ Outcome run_experiment(const Experiment& e, const run::RunOptions& options) {
   run::RunRecord record;
   record.command = options.command_line;
   const auto begin = std::chrono::steady_clock::now();
-  Outcome outcome = perform(e, true);
+  Outcome outcome = perform(e, options.directory);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   record.steps = outcome.steps;
   record.time_step = e.step();

@@ -12,16 +12,17 @@ struct Outcome {
   // only if recorded:
   std::vector<std::string> columns;
   std::vector<std::vector<double>> series;
-  std::vector<double> frame_times;
-  std::vector<std::string> frames;  ///< bytes of VTK files
 
   /// InputError, with the nearest name, if there is no such result.
   double operator[](const std::string& name) const;
 };
 
-/// Does the experiment. WorkError if grains do not part. `record` keeps the series, and the frames if asked
-/// for.
-Outcome perform(const Experiment& experiment, bool record = false);
+/// Where an experiment is recorded, if it is.
+using Recording = std::optional<std::filesystem::path>;
+
+/// Does the experiment. WorkError if grains do not part. With a folder the series is kept, and frames, if asked for, are
+/// written there.
+Outcome perform(const Experiment& experiment, const Recording& record = {});
 
 /// Does it and writes a run directory: scene.toml, run.json, series.csv, result.csv, and frames if asked for.
 Outcome run_experiment(const Experiment& experiment, const run::RunOptions& options);

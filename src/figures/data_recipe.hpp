@@ -38,15 +38,15 @@ struct Curve {
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;
-  std::optional<std::string> file;           ///< histogram, scatter, value: a CSV file of the run; default its impacts
-  std::string column;                        ///< what is drawn (y; x of a histogram)
-  std::vector<Where> where;                  ///< histogram, scatter: only rows that all of these let pass
-  bool over_sine = false;                    ///< histogram: divided by the sine of x, the size of a ring on a sphere
-  double scale = 1;                          ///< histogram: x times this; value: y
-  bool times_velocity = false;               ///< histogram: and x times the run's mean velocity: a time becomes a way
-  double slope = 1;                          ///< line
-  std::string against;                       ///< scatter: the column for x
-  std::int64_t bins = 100;                   ///< histogram
+  std::optional<std::string> file;  ///< histogram, scatter, value: a CSV file of the run; default its impacts
+  std::string column;               ///< what is drawn (y; x of a histogram)
+  std::vector<Where> where;         ///< histogram, scatter: only rows that all of these let pass
+  bool over_sine = false;           ///< histogram: divided by the sine of x, the size of a ring on a sphere
+  double scale = 1;                 ///< histogram: x times this; value: y
+  bool times_velocity = false;      ///< histogram: and x times the run's mean velocity: a time becomes a way
+  double slope = 1;                 ///< line
+  std::string against;              ///< scatter: the column for x
+  std::int64_t bins = 100;          ///< histogram
   std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
   double fold = 0;                           ///< histogram, scatter: take angles modulo this; 0: as they are
   bool absolute = false;                     ///< histogram, scatter: the column's absolute value

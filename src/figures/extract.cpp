@@ -173,8 +173,9 @@ std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> run
     for (std::size_t i = 0; i < x.size(); ++i)
       if (impacts.passes(i) && std::isfinite(x[i]) &&
           std::isfinite(y[i]))  // a grain's first impact knows no flight before it
-        rows.push_back(
-            {curve.panel, curve.series, folded(curve.absolute_x ? std::abs(x[i]) : x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
+        rows.push_back({curve.panel, curve.series,
+                        folded(curve.absolute_x ? std::abs(x[i]) : x[i], curve.fold),
+                        curve.absolute ? std::abs(y[i]) : y[i]});
   }
   thin(rows, curve.most);
   return rows;

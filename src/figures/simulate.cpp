@@ -45,8 +45,8 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
       const auto text = scene::to_toml(scene);
       const auto [at, is_new] = known.try_emplace(text, plan.jobs.size());
       if (is_new) {
-        plan.jobs.push_back(
-            {std::move(scene), work / fmt::format("{}-{}", scene_file.stem().string(), hash_of(text).substr(0, 16))});
+        plan.jobs.push_back({std::move(scene), work / fmt::format("{}-{}", scene_file.stem().string(),
+                                                                  hash_of(text).substr(0, 16))});
       }
       needed.push_back(at->second);
     }
@@ -129,11 +129,8 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     auto set = recipe.set;
     if (context.quick) set.insert(set.end(), recipe.quick.begin(), recipe.quick.end());
     const auto made = sweep_curves(recipe.sweeps,
-                                   {sweep::Base(recipe_file.parent_path() / *recipe.scene, set),
-                                    seeds,
-                                    context.quick,
-                                    context.jobs,
-                                    work / "points"},
+                                   {sweep::Base(recipe_file.parent_path() / *recipe.scene, set), seeds,
+                                    context.quick, context.jobs, work / "points"},
                                    progress);
     table.comments.insert(table.comments.end(), made.comments.begin(), made.comments.end());
     table.rows.insert(table.rows.end(), made.rows.begin(), made.rows.end());

@@ -1,8 +1,8 @@
 #include "figures/square_root_fit.hpp"
 
+#include <Eigen/Dense>
 #include <boost/math/tools/minima.hpp>
 #include <cassert>
-#include <cmath>
 
 namespace chute::figures {
 namespace {
@@ -13,19 +13,13 @@ struct Line {
 
 /// Least squares of v over √(s − s_AB).
 Line line_for(double s_AB, std::span<const double> s, std::span<const double> v) {
-  double n = 0, X = 0, V = 0, XX = 0, XV = 0;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const double x = std::sqrt(s[i] - s_AB);
-    n += 1, X += x, V += v[i], XX += x * x, XV += x * v[i];
-  }
-  Line line{};
-  line.slope = (n * XV - X * V) / (n * XX - X * X);
-  line.offset = (V - line.slope * X) / n;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const double d = v[i] - line.offset - line.slope * std::sqrt(s[i] - s_AB);
-    line.misfit += d * d;
-  }
-  return line;
+  using Column = Eigen::Map<const Eigen::VectorXd>;
+  const auto n = static_cast<Eigen::Index>(s.size());
+  Eigen::MatrixX2d basis(n, 2);
+  basis << Eigen::VectorXd::Ones(n), (Column(s.data(), n).array() - s_AB).sqrt();
+  const Column values(v.data(), n);
+  const Eigen::Vector2d fit = basis.colPivHouseholderQr().solve(values);
+  return {fit[0], fit[1], (values - basis * fit).squaredNorm()};
 }
 
 }  // namespace

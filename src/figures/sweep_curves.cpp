@@ -58,7 +58,8 @@ class Sweeps {
     if (curve.column == Column::v_x) {
       point.y = slow.median;
     } else if (slow.count(measure::Verdict::steady) > 0) {
-      const double R = curve.column == Column::surface_speed ? scene::setting_of(base.scene({})).mean_diameter / 2 : 1;
+      const double R =
+          curve.column == Column::surface_speed ? scene::setting_of(base.scene({})).mean_diameter / 2 : 1;
       point.y = slow.omega;
       point.y->mean *= R;
       if (point.y->error) *point.y->error *= R;

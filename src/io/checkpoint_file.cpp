@@ -47,7 +47,8 @@ template <class Fail>
 std::string_view take_block(std::string_view& rest, const Fail& fail) {
   std::size_t size = 0;
   const auto* begin = rest.data();
-  if (rest.size() < digits || std::from_chars(begin, begin + digits, size, 16).ptr != begin + digits) fail("truncated");
+  if (rest.size() < digits || std::from_chars(begin, begin + digits, size, 16).ptr != begin + digits)
+    fail("truncated");
   rest.remove_prefix(digits);
   if (size > rest.size()) fail("truncated");
   const auto taken = rest.substr(0, size);
@@ -102,6 +103,8 @@ std::string read_checkpoint(const std::filesystem::path& path, const std::string
   return std::string(parts.state);
 }
 
-std::string read_checkpoint_grains(const std::filesystem::path& path) { return std::string(Parts(path).grains); }
+std::string read_checkpoint_grains(const std::filesystem::path& path) {
+  return std::string(Parts(path).grains);
+}
 
 }  // namespace chute::io

@@ -65,7 +65,8 @@ template <class Reader>
 std::string read_with(Reader* reader, const std::string& name) {
   vtkObject::GlobalWarningDisplayOff();
   reader->Update();
-  if (reader->GetErrorCode() != 0) throw InputError(name + ": cannot be read: truncated, damaged or no VTK file");
+  if (reader->GetErrorCode() != 0)
+    throw InputError(name + ": cannot be read: truncated, damaged or no VTK file");
   auto grains = records_of(reader->GetOutput(), name);
   std::ostringstream bytes;
   cereal::PortableBinaryOutputArchive archive(bytes);
@@ -74,13 +75,15 @@ std::string read_with(Reader* reader, const std::string& name) {
 }
 
 std::vector<GrainRecord> from_child(const std::function<std::string()>& work, const std::string& name) {
-  std::istringstream bytes(in_child(work, name + ": cannot be read: it is damaged, and VTK's reader failed on it"));
+  std::istringstream bytes(
+      in_child(work, name + ": cannot be read: it is damaged, and VTK's reader failed on it"));
   cereal::PortableBinaryInputArchive archive(bytes);
   std::vector<GrainRecord> grains;
   archive(grains);
   if (grains.empty()) throw InputError(name + ": holds no moving grains");
   for (const auto& g : grains)
-    if (!(g.radius > 0) || !std::isfinite(g.place[0] + g.place[1] + g.place[2] + g.velocity[0] + g.velocity[1] + g.velocity[2]))
+    if (!(g.radius > 0) ||
+        !std::isfinite(g.place[0] + g.place[1] + g.place[2] + g.velocity[0] + g.velocity[1] + g.velocity[2]))
       throw InputError(name + ": a grain has no radius, or a place or velocity that is not a number");
   return grains;
 }

@@ -14,8 +14,6 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <cmath>
-
 #include "common/error.hpp"
 #include "common/fields.hpp"
 
@@ -69,12 +67,15 @@ void add_vertices(vtkPolyData* data, std::size_t count, Place&& place) {
   data->SetVerts(vertices);
 }
 
-std::string bytes(vtkPolyData* data) {
+std::string bytes(vtkPolyData* data, Packing packing = Packing::compressed) {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  if (packing == Packing::compressed)
+    writer->SetCompressorTypeToZLib();
+  else
+    writer->SetCompressorTypeToNone();
   writer->SetWriteToOutputString(true);
   if (!writer->Write()) throw WorkError("VTK could not encode a file: out of memory?");
   return writer->GetOutputString();
@@ -97,7 +98,7 @@ void add_field(vtkDataSetAttributes* to, const FieldView& field, std::size_t cou
 
 }  // namespace
 
-std::string grains_vtp(const GrainsView& grains, const RunFacts& facts) {
+std::string grains_vtp(const GrainsView& grains, const RunFacts& facts, Packing packing) {
   vtkNew<vtkPolyData> data;
   const std::size_t n = grains.size();
   add_vertices(data, n, [&](std::size_t i) { return grains.place(i); });
@@ -112,7 +113,7 @@ std::string grains_vtp(const GrainsView& grains, const RunFacts& facts) {
   });
   add_numbers(data, fields::time_value, std::array{grains.time});
   add_facts(data, facts);
-  return bytes(data);
+  return bytes(data, packing);
 }
 
 std::string impacts_vtp(std::span<const Impact> impacts, const RunFacts& facts) {
@@ -165,8 +166,10 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
       return (contacts[i].*member)[static_cast<std::size_t>(k)];
     });
   };
-  add_array<vtkLongLongArray>(to, fields::contact_a.name, n, 1, [&](std::size_t i, int) { return contacts[i].a; });
-  add_array<vtkLongLongArray>(to, fields::contact_b.name, n, 1, [&](std::size_t i, int) { return contacts[i].b; });
+  add_array<vtkLongLongArray>(to, fields::contact_a.name, n, 1,
+                              [&](std::size_t i, int) { return contacts[i].a; });
+  add_array<vtkLongLongArray>(to, fields::contact_b.name, n, 1,
+                              [&](std::size_t i, int) { return contacts[i].b; });
   vector(fields::point, &Contact::point);
   vector(fields::normal, &Contact::normal);
   vector(fields::branch, &Contact::branch);
@@ -181,78 +184,17 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
   return bytes(data);
 }
 
-namespace {
-
-using Corner = std::array<double, 3>;
-
-/// What of a polygon (or, of two corners, a line) lies on the side where (r − at)[axis] · side ≤ 0.
-std::vector<Corner> cut(const std::vector<Corner>& polygon, std::size_t axis, double at, double side) {
-  std::vector<Corner> inside;
-  const std::size_t n = polygon.size(), edges = n == 2 ? 1 : n;
-  const auto beyond = [&](const Corner& c) { return side * (c[axis] - at); };
-  for (std::size_t e = 0; e < edges; ++e) {
-    const Corner &a = polygon[e], &b = polygon[(e + 1) % n];
-    const double da = beyond(a), db = beyond(b);
-    if (da <= 0) inside.push_back(a);
-    if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
-      Corner& c = inside.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) c[k] = a[k] + da / (da - db) * (b[k] - a[k]);
-    }
-    if (n == 2 && db <= 0) inside.push_back(b);
-  }
-  return inside;
-}
-
-/// The plane within the room.
-std::vector<Corner> corners_of(const RunFacts::Plane& wall, const RunFacts& facts) {
-  double size = 1;
-  Corner middle{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    size += facts.room[2 * k + 1] - facts.room[2 * k];
-    middle[k] = (facts.room[2 * k] + facts.room[2 * k + 1]) / 2;
-  }
-  double height = 0;
-  for (std::size_t k = 0; k < 3; ++k) height += (middle[k] - wall.point[k]) * wall.normal[k];
-  const Vec<3> n{{wall.normal[0], wall.normal[1], wall.normal[2]}};
-  // Along the plane: in 2D within it; in 3D across the axis that n is farthest from.
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (std::abs(wall.normal[k]) < std::abs(wall.normal[axis])) axis = k;
-  Vec<3> out{};
-  out[facts.dimensions == 2 ? 2 : static_cast<int>(axis)] = 1;
-  Vec<3> u = cross(n, out);
-  u = (size / norm(u)) * u;
-  const Vec<3> v = facts.dimensions == 2 ? Vec<3>{} : cross(n, u);
-  std::vector<Corner> corners;
-  const auto add = [&](double a, double b) {
-    Corner& c = corners.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k)
-      c[k] = middle[k] - height * wall.normal[k] + a * u[static_cast<int>(k)] + b * v[static_cast<int>(k)];
-  };
-  add(-1, -1), add(1, -1);
-  if (facts.dimensions == 3) add(1, 1), add(-1, 1);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(facts.dimensions); ++k)
-    for (const double side : {-1.0, 1.0}) {
-      if (corners.size() < 2) return {};
-      corners = cut(corners, k, facts.room[2 * k + (side > 0)], side);
-    }
-  return corners;
-}
-
-}  // namespace
-
 std::string walls_vtp(const RunFacts& facts) {
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
   std::vector<int> wall;
-  for (std::size_t w = 0; w < facts.walls.size(); ++w) {
+  for (const auto& face : facts.walls) {
     std::vector<vtkIdType> ids;
-    for (const auto& corner : corners_of(facts.walls[w], facts)) ids.push_back(points->InsertNextPoint(corner.data()));
-    if (ids.size() < 2) continue;
+    for (const auto& corner : face.corners) ids.push_back(points->InsertNextPoint(corner.data()));
     cells->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
-    wall.push_back(static_cast<int>(w));
+    wall.push_back(face.wall);
   }
   data->SetPoints(points);
   if (facts.dimensions == 2)

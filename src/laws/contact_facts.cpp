@@ -40,8 +40,8 @@ class ContactFacts {
         contact_.normal);
     if (const auto v = spec_.at_velocity())
       for (const double part : {0.1, 0.01})
-        add(fmt::format("e_n {:.3g}", part * *v), normal_impact(contact_, part * *v, pair_).restitution,
-            "", fmt::format("restitution of that pair at {:.4g} {}", part * *v, speed()));
+        add(fmt::format("e_n {:.3g}", part * *v), normal_impact(contact_, part * *v, pair_).restitution, "",
+            fmt::format("restitution of that pair at {:.4g} {}", part * *v, speed()));
   }
 
   void time_step(double dt) {
@@ -101,7 +101,6 @@ class ContactFacts {
     add("t_s/t_n", t_s / impact_.contact_time, "", "tangential half period (3.15) over the contact time");
   }
 };
-
 
 }  // namespace
 

@@ -59,6 +59,29 @@ static void describe_contact(Archive& a, ContactSpec& contact) {
 
 void describe(TomlReader& a, ContactSpec& contact) { describe_contact(a, contact); }
 void describe(TomlWriter& a, ContactSpec& contact) { describe_contact(a, contact); }
+void describe(KeyLister& a, ContactSpec& contact) { describe_contact(a, contact); }
+
+namespace {
+
+template <class Laws, std::size_t... Index>
+void add_law_keys(const char* table, std::vector<LawKeys>& all, std::index_sequence<Index...>) {
+  const auto add = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) {
+    KeyLister lister;
+    std::variant_alternative_t<I, typename ListOf<Laws>::Keys> keys{};
+    keys.describe(lister);
+    all.push_back({table, std::string(ListOf<Laws>::names[I]), lister.keys()});
+  };
+  (add(std::integral_constant<std::size_t, Index>{}), ...);
+}
+
+}  // namespace
+
+std::vector<LawKeys> all_law_keys() {
+  std::vector<LawKeys> all;
+  add_law_keys<Normal>("contact.normal", all, std::make_index_sequence<std::variant_size_v<Normal>>{});
+  add_law_keys<Shear>("contact.tangential", all, std::make_index_sequence<std::variant_size_v<Shear>>{});
+  return all;
+}
 
 std::optional<double> ContactSpec::at_velocity() const {
   return std::visit(

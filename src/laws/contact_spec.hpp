@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/toml_reader.hpp"
+#include "common/keys.hpp"
 #include "core/fact.hpp"
 #include "laws/list.hpp"
 
@@ -26,6 +26,14 @@ struct ContactSpec {
 /// Keys of [contact], [contact.normal] and [contact.tangential].
 void describe(TomlReader& a, ContactSpec& contact);
 void describe(TomlWriter& a, ContactSpec& contact);
+void describe(KeyLister& a, ContactSpec& contact);
+
+/// The keys of one law.
+struct LawKeys {
+  std::string table, name;  ///< contact.normal or contact.tangential; the law's word
+  std::vector<KeyText> keys;
+};
+std::vector<LawKeys> all_law_keys();
 
 /// Refuses over-damped contacts: they never end, so they have no contact time and no restitution.
 void check_contact_time(const ContactSpec& contact, Pair pair, const TomlReader& reader);

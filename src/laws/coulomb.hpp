@@ -20,7 +20,7 @@ struct Coulomb {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.required("friction", friction, non_negative);
+    a.required("friction", friction, non_negative, "μ");
   }
 
   template <int T>

@@ -21,8 +21,8 @@ struct CutOffSpring {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.required("friction", friction, non_negative);
-    a.value("cap", cap);
+    a.required("friction", friction, non_negative, "μ");
+    a.value("cap", cap, "the spring is cut off at the friction force (3.25)");
   }
 
   template <int T>

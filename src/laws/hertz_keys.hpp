@@ -12,14 +12,14 @@ struct HertzKeys {
 
   template <class Archive>
   void describe_spring(Archive& a) {
-    a.value("stiffness", stiffness, positive);
-    a.value("contact_time", contact_time, positive);
-    a.value("young", young, positive);
-    a.value("poisson", poisson, Range{-1, 0.5, true, false});
+    a.value("stiffness", stiffness, positive, "k_n");
+    a.value("contact_time", contact_time, positive, "t_n of the reference pair, instead of a stiffness");
+    a.value("young", young, positive, "Young's modulus of the material");
+    a.value("poisson", poisson, Range{-1, 0.5, true, false}, "Poisson's number of the material");
   }
   template <class Archive>
   void describe_velocity(Archive& a) {
-    a.value("at_velocity", at_velocity, positive);
+    a.value("at_velocity", at_velocity, positive, "impact velocity that t_n and e_n hold for");
     a.check(count_given(stiffness, contact_time, young) == 1, "law",
             "give one of stiffness, contact_time, and young with poisson");
     a.check(young.has_value() == poisson.has_value(), young ? "young" : "poisson",

@@ -58,7 +58,7 @@ struct HertzKuwabaraKono::Keys : DampedHertzKeys {
   void describe(Archive& a) {
     describe_spring(a);
     DampingKeys::describe(a);
-    a.value("relaxation", relaxation, non_negative);
+    a.value("relaxation", relaxation, non_negative, "relaxation time A of the material");
     describe_rest(a);
     a.check(count_given(restitution, damping, relaxation) == 1, damping ? "damping" : "restitution",
             "give one of restitution, damping and relaxation");

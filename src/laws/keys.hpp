@@ -39,13 +39,14 @@ struct DampingKeys {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.value("restitution", restitution, restitution_range);
-    a.value("damping", damping, non_negative);
+    a.value("restitution", restitution, restitution_range, "e_n, of every pair");
+    a.value("damping", damping, non_negative, "γ_n, instead of a restitution");
   }
   /// After all other keys: the mass convention of a given damping.
   template <class Archive>
   void describe_scaling(Archive& a) {
-    if (damping) a.choice("mass_scaling", mass_scaling, mass_scaling_words);
+    if (damping)
+      a.choice("mass_scaling", mass_scaling, mass_scaling_words, "where the reduced mass enters (3.1.1)");
   }
   template <class Archive>
   void check(Archive& a, const std::optional<double>& contact_time) const {
@@ -66,8 +67,8 @@ struct SpringKeys {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.value("stiffness", stiffness, positive);
-    a.value("stiffness_ratio", stiffness_ratio, positive);
+    a.value("stiffness", stiffness, positive, "k_s");
+    a.value("stiffness_ratio", stiffness_ratio, positive, "k_s/k_n");
     a.check(count_given(stiffness, stiffness_ratio) == 1, stiffness ? "stiffness_ratio" : "stiffness",
             "give either stiffness, k_s, or stiffness_ratio, k_s/k_n");
   }

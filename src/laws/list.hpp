@@ -126,6 +126,24 @@ inline void know_time_step(ContactLaws& contact, double time_step) {
       contact.shear);
 }
 
+/// Asks for that restitution in place of whatever damping the keys have; false if the law takes none.
+inline bool set_restitution(NormalKeys& normal, double e_n) {
+  return std::visit(
+      [&](auto& keys) {
+        if constexpr (requires { keys.restitution; }) {
+          keys.restitution = e_n;
+          if constexpr (requires { keys.damping; }) keys.damping.reset();
+          if constexpr (requires { keys.relaxation; }) keys.relaxation.reset();
+          if constexpr (requires { keys.unloading_stiffness; })
+            keys.unloading_stiffness.reset(), keys.hardening.reset();
+          return true;
+        } else {
+          return false;
+        }
+      },
+      normal);
+}
+
 /// The laws that a scene's keys come to.
 ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference);
 

@@ -41,7 +41,7 @@ struct MindlinSpring {
     template <class Archive>
     void describe(Archive& a) {
       spring.describe(a);
-      a.value("shrink", shrink);
+      a.value("shrink", shrink, "the spring shrinks as the contact grows; false: as printed");
       SpringKeys::describe(a);
     }
     MindlinSpring make(const PairCoefficient& k_n) const { return {resolve(k_n), spring, shrink}; }

@@ -45,9 +45,9 @@ struct RegularisedCoulomb {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.required("viscosity", viscosity, non_negative);
-    a.required("friction", friction, non_negative);
-    a.choice("mass_scaling", scaling, mass_scaling_words);
+    a.required("viscosity", viscosity, non_negative, "γ_s");
+    a.required("friction", friction, non_negative, "μ");
+    a.choice("mass_scaling", scaling, mass_scaling_words, "where the reduced mass enters (3.1.1)");
     a.value("relaxation_steps", relaxation_steps, at_least(1),
             "slip dies away in no fewer time steps, for γ_s that is stiff; from 12 on stable");
   }

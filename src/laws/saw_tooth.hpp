@@ -25,8 +25,8 @@ struct SawTooth {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.required("friction", friction, non_negative);
-    a.required("tooth", length, positive);
+    a.required("friction", friction, non_negative, "μ");
+    a.required("tooth", length, positive, "ζ_0, length of a tooth");
   }
 
   bool needs_radius() const { return false; }

@@ -104,8 +104,8 @@ struct SpringDashpot::Keys : DampingKeys {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.value("stiffness", stiffness, positive);
-    a.value("contact_time", contact_time, positive);
+    a.value("stiffness", stiffness, positive, "k_n");
+    a.value("contact_time", contact_time, positive, "t_n of the reference pair, instead of a stiffness");
     DampingKeys::describe(a);
     describe_scaling(a);
     a.check(count_given(stiffness, contact_time) == 1, "law", "give either stiffness or contact_time");

@@ -14,8 +14,8 @@ struct Viscous {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.required("viscosity", viscosity, non_negative);
-    a.choice("mass_scaling", scaling, mass_scaling_words);
+    a.required("viscosity", viscosity, non_negative, "γ_s");
+    a.choice("mass_scaling", scaling, mass_scaling_words, "where the reduced mass enters (3.1.1)");
   }
 
   double effective_viscosity(Pair p) const {

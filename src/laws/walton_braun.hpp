@@ -84,11 +84,12 @@ struct WaltonBraun::Keys {
 
   template <class Archive>
   void describe(Archive& a) {
-    a.required("stiffness", stiffness, positive);
-    a.value("restitution", restitution, restitution_range);
-    a.value("unloading_stiffness", unloading_stiffness, positive);
-    a.value("hardening", hardening, non_negative);
-    if (hardening) a.required("at_velocity", at_velocity, positive);
+    a.required("stiffness", stiffness, positive, "k_1, of the loading");
+    a.value("restitution", restitution, restitution_range, "e_n, of every pair");
+    a.value("unloading_stiffness", unloading_stiffness, positive, "k_2");
+    a.value("hardening", hardening, non_negative, "s: k_2 grows with the largest force");
+    if (hardening)
+      a.required("at_velocity", at_velocity, positive, "impact velocity that t_n and e_n hold for");
     a.check(count_given(restitution, unloading_stiffness, hardening) == 1, "law",
             "give one of restitution, unloading_stiffness and hardening");
     a.check(!unloading_stiffness || *unloading_stiffness >= stiffness, "unloading_stiffness",

@@ -32,7 +32,7 @@ struct WaltonBraunMindlin {
     double friction = 0;
     template <class Archive>
     void describe(Archive& a) {
-      a.required("friction", friction, non_negative);
+      a.required("friction", friction, non_negative, "μ");
       SpringKeys::describe(a);
     }
     WaltonBraunMindlin make(const PairCoefficient& k_n) const { return {resolve(k_n), friction}; }

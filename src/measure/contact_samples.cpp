@@ -23,8 +23,9 @@ std::optional<std::vector<Contact>> ContactSamples::take(const Look& look) {
 
 std::vector<Contact> joined_by_pair(const std::vector<Contact>& contacts) {
   std::vector<Contact> sorted = contacts, joined;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Contact& a, const Contact& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Contact& a, const Contact& b) {
+    return std::pair(a.a, a.b) < std::pair(b.a, b.b);
+  });
   for (const auto& c : sorted) {
     if (joined.empty() || joined.back().a != c.a || joined.back().b != c.b) {
       joined.push_back(c);

@@ -17,7 +17,8 @@ class ContactSamples {
   bool wants_collisions(std::int64_t step) const { return hard_ && step >= from_; }
   /// To be called at every look.
   void gather(const Look& look) {
-    if (hard_ && begun_ >= 0) gathered_.insert(gathered_.end(), look.collisions.begin(), look.collisions.end());
+    if (hard_ && begun_ >= 0)
+      gathered_.insert(gathered_.end(), look.collisions.begin(), look.collisions.end());
   }
   /// The contacts of a sample now; nothing where none can be told yet, and the sample should not count.
   std::optional<std::vector<Contact>> take(const Look& look);

@@ -12,7 +12,8 @@ ImpactHistograms::ImpactHistograms(const HistogramBins& bins, const Window& wind
 
 void ImpactHistograms::add(std::span<const Impact> impacts, std::size_t moving) {
   for (const auto& impact : impacts) {
-    if (!std::isfinite(impact.gamma) || !std::isfinite(impact.v_n)) continue;  // not a number belongs to no bin
+    if (!std::isfinite(impact.gamma) || !std::isfinite(impact.v_n))
+      continue;  // not a number belongs to no bin
     auto& sums = blocks_.sample(impact.time);
     sums.resize(bins_.angles + bins_.velocities + 1);
     const auto kind =

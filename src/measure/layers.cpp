@@ -37,7 +37,8 @@ class Layers final : public Remembering<Layers<Measure, Row>> {
   void write(const Flow& flow) const override {
     auto comments = run_.comments(file_.what);
     if (measure_.beyond() > 0)
-      comments.push_back(fmt::format("{} samples of grains higher than {} layers are left out", measure_.beyond(), most_layers));
+      comments.push_back(fmt::format("{} samples of grains higher than {} layers are left out",
+                                     measure_.beyond(), most_layers));
     run_.write(file_.name, file_.columns.csv(comments, measure_.result(from_.value_or(flow.from))));
   }
   template <class Archive>
@@ -59,13 +60,15 @@ using FieldLayers = Layers<Fields, FieldPoint>;
 
 /// A column for each component that exists.
 template <class Row>
-void add_vector(Columns<Row>& columns, int dimensions, const std::string& name, std::array<Estimate, 3> Row::*member) {
+void add_vector(Columns<Row>& columns, int dimensions, const std::string& name,
+                std::array<Estimate, 3> Row::*member) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions); ++k)
     columns.add_estimate(name + "_" + axis_names[k],
                          [member, k](const Row& row) -> const Estimate& { return (row.*member)[k]; });
 }
 template <class Row>
-void add_tensor(Columns<Row>& columns, int dimensions, const std::string& name, std::array<Estimate, 6> Row::*member) {
+void add_tensor(Columns<Row>& columns, int dimensions, const std::string& name,
+                std::array<Estimate, 6> Row::*member) {
   for (std::size_t t = 0; t < 6; ++t)
     if (exists_in(dimensions, t))
       columns.add_estimate(name + "_" + tensor_names[t],

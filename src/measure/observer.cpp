@@ -4,7 +4,9 @@
 
 namespace chute::measure {
 
-std::vector<std::string> RunContext::comments(std::string what) const { return {std::move(what), title + "; " + made_by}; }
+std::vector<std::string> RunContext::comments(std::string what) const {
+  return {std::move(what), title + "; " + made_by};
+}
 
 void RunContext::write(const std::string& name, const std::string& bytes) const {
   if (directory.empty()) return;

@@ -18,8 +18,8 @@
 #include "io/csv.hpp"
 #include "io/vtk_files.hpp"
 #include "measure/blocks.hpp"
-#include "measure/schedule.hpp"
 #include "measure/layer_sums.hpp"
+#include "measure/schedule.hpp"
 #include "measure/steadiness.hpp"
 
 /// Observers: what watches a run, and what it leaves. One file an observer, and a line in list.cpp.
@@ -34,7 +34,7 @@ struct RunContext {
   double gravity = 0;
   bool independent = false;  ///< grains do not feel each other: each is a run of its own
   double time_step = 0, duration = 0;
-  double contact_time = 0;  ///< t_n of the contact that the scene is about
+  double contact_time = 0;          ///< t_n of the contact that the scene is about
   std::filesystem::path directory;  ///< empty: nothing is written
 
   Schedule schedule(double from, double every) const { return {from, every, time_step}; }

@@ -26,7 +26,8 @@ class SeriesOutput final : public Described<Output, SeriesOutput> {
 /// [output.frames], and with `contacts = true` the contact network beside every frame.
 class FramesOutput final : public Described<Output, FramesOutput> {
  public:
-  static constexpr std::string_view word = "frames", text = "the grains, as VTK files; with contacts their network";
+  static constexpr std::string_view word = "frames",
+                                    text = "the grains, as VTK files; with contacts their network";
   std::optional<Every> frames;
   bool contacts = false;
 
@@ -40,10 +41,10 @@ class FramesOutput final : public Described<Output, FramesOutput> {
   bool wanted() const override { return frames.has_value(); }
   void drop() override { frames.reset(), contacts = false; }
   Needs needs() const override { return {.contacts = contacts}; }
-  double rhythm() const override {
-    return frames ? frames->every : std::numeric_limits<double>::infinity();
+  double rhythm() const override { return frames ? frames->every : std::numeric_limits<double>::infinity(); }
+  std::vector<std::string> files() const override {
+    return {"frames.pvd", "frames", "contacts", "walls.vtp"};
   }
-  std::vector<std::string> files() const override { return {"frames.pvd", "frames", "contacts", "walls.vtp"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
 
@@ -57,7 +58,8 @@ struct ProfileSpec {
 };
 template <class Archive>
 void describe(Archive& a, ProfileSpec& spec) {
-  a.number_or_word("from", spec.from, "steady", non_negative, "averages begin; \"steady\": when the flow settled");
+  a.number_or_word("from", spec.from, "steady", non_negative,
+                   "averages begin; \"steady\": when the flow settled");
   a.value("bin", spec.bin, non_negative, "height of a layer; default a bead's diameter");
   a.value("fine", spec.fine, positive, "height of the layers of a second table, profiles_fine.csv");
   a.value("every", spec.every, positive, "time between samples; default 0.02 √(d/g)");
@@ -79,14 +81,16 @@ struct FieldSpec {
 };
 template <class Archive>
 void describe(Archive& a, FieldSpec& spec) {
-  a.number_or_word("from", spec.from, "steady", non_negative, "averages begin; \"steady\": when the flow settled");
+  a.number_or_word("from", spec.from, "steady", non_negative,
+                   "averages begin; \"steady\": when the flow settled");
   a.value("width", spec.width, non_negative, "of the smoothing kernel; default a bead's diameter");
   a.value("every", spec.every, positive, "time between samples; default 0.02 √(d/g)");
 }
 /// [output.fields]
 class FieldsOutput final : public TableOutput<FieldsOutput, FieldSpec> {
  public:
-  static constexpr std::string_view word = "fields", text = "fields coarse-grained over the height, without bins";
+  static constexpr std::string_view word = "fields",
+                                    text = "fields coarse-grained over the height, without bins";
   Needs needs() const override { return {.contacts = true}; }
   void fill(const Scales& scales) override;
   std::vector<std::string> files() const override { return {"fields.csv"}; }
@@ -116,7 +120,8 @@ struct ImpactHistogramSpec {
 };
 template <class Archive>
 void describe(Archive& a, ImpactHistogramSpec& spec) {
-  a.number_or_word("from", spec.from, "steady", non_negative, "impacts count; \"steady\": when the flow settled");
+  a.number_or_word("from", spec.from, "steady", non_negative,
+                   "impacts count; \"steady\": when the flow settled");
   a.value("angles", spec.angles, between(1, 10000), "bins of γ mod π");
   a.value("velocities", spec.velocities, between(1, 10000), "bins of |v_n|");
   a.value("fastest", spec.fastest, non_negative, "end of the last of them; default 2 √(gd)");
@@ -124,7 +129,8 @@ void describe(Archive& a, ImpactHistogramSpec& spec) {
 /// [output.impact_histograms]
 class ImpactHistogramsOutput final : public TableOutput<ImpactHistogramsOutput, ImpactHistogramSpec> {
  public:
-  static constexpr std::string_view word = "impact_histograms", text = "statistics of impacts, gathered in the run";
+  static constexpr std::string_view word = "impact_histograms",
+                                    text = "statistics of impacts, gathered in the run";
   Needs needs() const override { return {.impacts = true}; }
   void fill(const Scales& scales) override;
   std::vector<std::string> files() const override { return {"impact_histograms.csv"}; }

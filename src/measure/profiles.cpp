@@ -16,7 +16,8 @@ double below(double y, double R, int dimensions) {
 
 }  // namespace
 
-Profiles::Profiles(const Frame& frame, double bin, const Window& window) : frame_(frame), bin_(bin), blocks_(window) {}
+Profiles::Profiles(const Frame& frame, double bin, const Window& window)
+    : frame_(frame), bin_(bin), blocks_(window) {}
 
 /// The bin at a height; null below the bed, and above all bins that are kept.
 Profiles::Sums* Profiles::bin_at(std::vector<Sums>& bins, double height) const {
@@ -27,7 +28,8 @@ Profiles::Sums* Profiles::bin_at(std::vector<Sums>& bins, double height) const {
   return &bins[index];
 }
 
-void Profiles::sample(const GrainsView& grains, std::span<const Contact> touching, std::span<const Contact> forces) {
+void Profiles::sample(const GrainsView& grains, std::span<const Contact> touching,
+                      std::span<const Contact> forces) {
   auto& bins = blocks_.sample(grains.time);
   const auto normal = frame_.normal();
   const int D = frame_.dimensions;
@@ -59,10 +61,11 @@ void Profiles::sample(const GrainsView& grains, std::span<const Contact> touchin
 void Profiles::add_contact(std::vector<Sums>& bins, const Contact& contact, const GrainsView& grains) const {
   const double begin = begin_of(contact, grains, frame_.normal()), way = contact.branch[frame_.normal()];
   const double low = std::min(begin, begin + way), high = low + std::abs(way);
-  for (double b = std::max(0.0, std::floor(low / bin_)), last = std::floor(high / bin_); b <= last && b < most_layers;
-       ++b) {
+  for (double b = std::max(0.0, std::floor(low / bin_)), last = std::floor(high / bin_);
+       b <= last && b < most_layers; ++b) {
     const double edge = b * bin_, inside = std::min(high, edge + bin_) - std::max(low, edge);
-    if (Sums* s = bin_at(bins, edge + 0.5 * bin_)) s->layer.add_contact(contact, high > low ? inside / (high - low) : 1);
+    if (Sums* s = bin_at(bins, edge + 0.5 * bin_))
+      s->layer.add_contact(contact, high > low ? inside / (high - low) : 1);
   }
 }
 
@@ -76,7 +79,9 @@ std::vector<ProfileBin> Profiles::result(double start) const {
     const auto per_area = [&](auto&& sum) {
       return estimate([&](const Sums& s, double samples) { return sum(s) / (samples * area); });
     };
-    const auto per_grain = [&](auto&& sum) { return estimate([&](const Sums& s, double) { return sum(s) / s.count; }); };
+    const auto per_grain = [&](auto&& sum) {
+      return estimate([&](const Sums& s, double) { return sum(s) / s.count; });
+    };
     ProfileBin bin{};
     bin.h = (static_cast<double>(b) + 0.5) * bin_;
     bin.grains = estimate([](const Sums& s, double samples) { return s.count / samples; }).mean;

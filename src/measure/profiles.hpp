@@ -12,11 +12,11 @@ struct ProfileBin {
   double grains;  ///< mean number of grains whose centre lies in the bin
   /// Area fraction in 2D, volume fraction in 3D: each grain counts whole where its centre is (thesis 5.2, footnote 4).
   Estimate eta;
-  Estimate eta_exact;               ///< the same by the part of each grain that lies in the bin
-  std::array<Estimate, 3> v;        ///< mean velocity of the grains in the bin
-  std::array<Estimate, 3> sigma;    ///< √(⟨v²⟩ − ⟨v⟩²)
-  Estimate omega;                   ///< mean spin, positive when rolling downhill
-  Estimate half_shear;              ///< ½ ∂v_x/∂h from the bins above and below; ω of simple shear (thesis 5.2.2)
+  Estimate eta_exact;             ///< the same by the part of each grain that lies in the bin
+  std::array<Estimate, 3> v;      ///< mean velocity of the grains in the bin
+  std::array<Estimate, 3> sigma;  ///< √(⟨v²⟩ − ⟨v⟩²)
+  Estimate omega;                 ///< mean spin, positive when rolling downhill
+  Estimate half_shear;  ///< ½ ∂v_x/∂h from the bins above and below; ω of simple shear (thesis 5.2.2)
   /// Stress, positive in compression: carried by velocities that fluctuate about the bin's mean, and by
   /// contacts (each where the line between the centres lies).
   std::array<Estimate, 6> kinetic, contact;

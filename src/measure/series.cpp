@@ -15,7 +15,8 @@ SeriesRow observe_series(const Engine& engine, const Frame& frame) {
   const auto& spin = grains.spin[frame.rolling_axis()];
   for (std::size_t i = 0; i < grains.moving; ++i) {
     row.x += grains.unwrapped(i, 0);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(frame.dimensions); ++k) row.v[k] += grains.velocity[k][i];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(frame.dimensions); ++k)
+      row.v[k] += grains.velocity[k][i];
     row.omega += frame.rolling_sign() * spin[i];
   }
   const auto n = static_cast<double>(grains.moving);
@@ -58,7 +59,8 @@ std::vector<Flow> SeriesObserver::starts() const {
   std::vector<double> time;
   for (const auto& row : rows_) time.push_back(row.time);
   std::vector<Flow> flows;
-  for (const auto& track : tracks_) flows.push_back(judge_flow({time, track.x, track.omega, track.kinetic}, scales));
+  for (const auto& track : tracks_)
+    flows.push_back(judge_flow({time, track.x, track.omega, track.kinetic}, scales));
   if (!tracks_.empty()) return flows;
   Track mean;
   for (const auto& row : rows_) {
@@ -94,8 +96,11 @@ void SeriesObserver::write(const Flow&) const {
       .add("gravity_work", energy(&EnergyAccount::gravity_work))
       .add("normal_loss", energy(&EnergyAccount::normal_loss))
       .add("shear_loss", energy(&EnergyAccount::shear_loss))
+      .add("wall_work", energy(&EnergyAccount::wall_work))
+      .add("projection_work", energy(&EnergyAccount::projection_work))
       .add("residual", [](const Row& row) { return row.energy.residual(); });
-  for (std::size_t k = 0; k < told_.size(); ++k) columns.add(told_[k], [k](const Row& row) { return row.tells[k]; });
+  for (std::size_t k = 0; k < told_.size(); ++k)
+    columns.add(told_[k], [k](const Row& row) { return row.tells[k]; });
   run_.write("series.csv",
              columns.csv(run_.comments("means over the moving grains, and where the energy is and went (see "
                                        "README)"),

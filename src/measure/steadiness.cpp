@@ -92,7 +92,8 @@ struct Trend {
       if (k > 0) next += off[k] * off[k - 1];
     }
     change = n * slope;
-    change_error = n * std::sqrt(square / (n - 2) / spread) * correlation_factor(square > 0 ? next / square : 0);
+    change_error =
+        n * std::sqrt(square / (n - 2) / spread) * correlation_factor(square > 0 ? next / square : 0);
     scatter = std::sqrt(all / (n - 1));
   }
 };

@@ -26,7 +26,9 @@ measure::Flow flow_from(const nlohmann::json& json) {
     const auto& value = json.at(key);
     return value.is_null() ? std::nullopt : std::optional(value.get<double>());
   };
-  const auto estimate = [&](const std::string& key) { return Estimate{number(key).value_or(NAN), number(key + "_err")}; };
+  const auto estimate = [&](const std::string& key) {
+    return Estimate{number(key).value_or(NAN), number(key + "_err")};
+  };
   const auto verdict = measure::verdict_named(json.at("verdict").get<std::string>());
   if (!verdict) throw InputError("its verdict is not known");
   return {*verdict, number("from").value_or(NAN), estimate("v_x"), estimate("omega"), estimate("kinetic")};

@@ -19,7 +19,7 @@ struct RunRecord {
   std::int64_t steps = 0;
   double time_step = 0, time = 0;
   std::string clock = "time";  ///< what `time` counts
-  std::string end, why;  ///< `why` is left out if empty
+  std::string end, why;        ///< `why` is left out if empty
 
   /// This moment in universal time, 2026-01-31T12:00:00Z.
   static std::string now();

@@ -9,8 +9,8 @@
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
-#include "io/checkpoint_file.hpp"
 #include "common/hash.hpp"
+#include "io/checkpoint_file.hpp"
 #include "measure/schedule.hpp"
 #include "run/record.hpp"
 #include "run/session.hpp"
@@ -27,7 +27,8 @@ class Run {
       : scene_(scene),
         options_(options),
         resolved_(scene::to_toml(scene)),
-        session_(scene, options.threads, options.directory),  // may refuse the scene: before anything is written
+        session_(scene, options.threads,
+                 options.directory),  // may refuse the scene: before anything is written
         directory_(options.directory, options.existing),
         checkpoint_due_(scene.checkpoint, scene.checkpoint, session_.time_step()) {}
 
@@ -108,7 +109,8 @@ class Run {
     record.why = why;
     const auto& series = session_.series();
     const auto file = directory_.file("run.json");
-    series.rows() > 0 ? write_record(file, record, series.flow(), series.starts()) : write_record(file, record);
+    series.rows() > 0 ? write_record(file, record, series.flow(), series.starts())
+                      : write_record(file, record);
   }
 
   /// Slices of about a tenth of a second, so that progress and interruption feel prompt.

@@ -30,7 +30,8 @@ std::unique_ptr<Engine> made(const scene::Scene& scene, int threads, measure::Ru
 Session::Session(const scene::Scene& scene, int threads, const std::filesystem::path& directory) {
   engine_ = scene.dimensions == 2 ? made<2>(scene, threads, run_) : made<3>(scene, threads, run_);
   run_.title = scene.title;
-  run_.made_by = fmt::format("units: {}; seed {}; chute {} ({})", units_of(scene), scene.seed, version, commit);
+  run_.made_by =
+      fmt::format("units: {}; seed {}; chute {} ({})", units_of(scene), scene.seed, version, commit);
   run_.offers = scene.engine->offers();
   run_.gravity = scene.incline.gravity;
   run_.independent = scene.grains.independent;

@@ -36,7 +36,7 @@ class Session {
   /// All files as of now.
   void write() const;
   /// The grains as a VTK file, for checkpoints.
-  std::string grains() const { return io::grains_vtp(engine_->grains(), run_.facts); }
+  std::string grains() const { return io::grains_vtp(engine_->grains(), run_.facts, io::Packing::plain); }
   void save(std::ostream& out) const;
   void load(std::istream& in);
 

@@ -42,8 +42,15 @@ class Table {
 
 std::string keys_table() {
   Table table;
+  table.add("All scenes", plain_keys());
   table.add_kinds("bed", "kind", beds::list());
+  KeyLister wall;
+  WallSpec example;
+  describe(wall, example);
+  table.add("`[[wall]]` planes, segments, polygons and cylinders that grains do not pass", wall.keys());
   table.add_kinds("grains.start", "kind", starts::list());
+  for (const auto& law : laws::all_law_keys())
+    table.add(fmt::format("`[{}]` law = \"{}\"", law.table, law.name), law.keys);
   table.add_kinds("engine", "method", engines::list());
   for (const auto& kind : measure::list()) {
     KeyLister lister;

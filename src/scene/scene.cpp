@@ -16,12 +16,40 @@ namespace chute::scene {
 // Outside unnamed namespaces: the archives find these by the type that they describe.
 
 template <class Archive>
+static void describe_angle(Archive& a, const char* key, std::string& angle, const char* text) {
+  a.required(key, angle, text);
+  if constexpr (Archive::reading)
+    a.check(parse_angle(angle).has_value(), key,
+            fmt::format("\"{}\" is not an angle, write \"18 deg\" or \"0.3 rad\"", angle));
+}
+
+template <class Archive>
+static void describe(Archive& a, Tilting& tilting) {
+  describe_angle(a, "from", tilting.from, "where the incline starts");
+  describe_angle(a, "to", tilting.to, "where it stays in the end");
+  describe_angle(a, "rate", tilting.rate, "how far it is tilted per time, > 0");
+  if constexpr (Archive::reading) {
+    for (const auto& [key, angle] : {std::pair("from", &tilting.from), std::pair("to", &tilting.to)})
+      a.check(std::abs(*parse_angle(*angle)) <= std::numbers::pi / 2, key,
+              fmt::format("\"{}\" is not allowed, must be between -90 deg and 90 deg", *angle));
+    a.check(*parse_angle(tilting.rate) > 0, "rate",
+            fmt::format("\"{}\" is not allowed, must be > 0", tilting.rate));
+  }
+}
+
+template <class Archive>
 static void describe(Archive& a, Incline& incline) {
-  a.value("angle", incline.angle, "inclination, \"18 deg\" or \"0.3 rad\"");
+  bool table = incline.tilting.has_value();
+  if constexpr (Archive::reading) table = a.has_table("angle");
+  if (table)
+    a.section("angle", incline.tilting);
+  else
+    a.value("angle", incline.angle,
+            "inclination, \"18 deg\" or \"0.3 rad\"; or { from, to, rate } of one that is tilted");
   a.value("sin", incline.sine, between(-1, 1), "its sine instead");
   a.value("gravity", incline.gravity, non_negative, "g; default 9.81 m/s² in SI, 1 in reduced units");
   if constexpr (Archive::reading) {
-    a.check(incline.angle.has_value() != incline.sine.has_value(), incline.angle ? "sin" : "angle",
+    a.check((incline.angle || incline.tilting) != incline.sine.has_value(), incline.sine ? "sin" : "angle",
             "give either angle = \"18 deg\" or sin = 0.31");
     if (incline.angle) {
       const auto theta = parse_angle(*incline.angle);
@@ -35,7 +63,8 @@ static void describe(Archive& a, Incline& incline) {
 
 template <class Archive>
 static void describe(Archive& a, DomainSpec& domain) {
-  a.value("periodic", domain.periodic, "directions that repeat, of \"x\", \"y\", \"z\"; default all along the bed");
+  a.value("periodic", domain.periodic,
+          "directions that repeat, of \"x\", \"y\", \"z\"; default all along the bed");
   a.value("size", domain.size, positive, "lengths along x, y, z, where the bed does not say them");
 }
 
@@ -75,8 +104,10 @@ static void describe(Archive& a, GrainsSpec& grains) {
     a.section("diameter", grains.diameter);
     a.value("size_ratio", grains.size_ratio, positive, "R/r, instead of a diameter");
   }
-  a.value("density", grains.density, positive, "of the grains, spheres in 2D too; default 6/π in reduced units: m = d³");
-  a.value("independent", grains.independent, "grains do not feel each other: many starts of one, side by side");
+  a.value("density", grains.density, positive,
+          "of the grains, spheres in 2D too; default 6/π in reduced units: m = d³");
+  a.value("independent", grains.independent,
+          "grains do not feel each other: many starts of one, side by side");
   a.value("rotation", grains.rotation, "false: grains never spin, as if friction acted at their centres");
   if constexpr (Archive::reading)
     a.check(brought || grains.diameter.has_value() != grains.size_ratio.has_value(),
@@ -114,7 +145,8 @@ static void describe(Archive& a, Run& run) {
 
 static measure::Scales scales_of(const Scene& scene) {
   const double d = scene.bed->diameter, g = scene.incline.gravity;
-  return {scene.duration, d, g > 0 ? std::sqrt(g * d) : 1, g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4};
+  return {scene.duration, d, g > 0 ? std::sqrt(g * d) : 1,
+          g > 0 ? 0.02 * std::sqrt(d / g) : scene.duration / 1e4};
 }
 
 Scene::Scene() : bed(beds::list().front()), engine(engines::list().front()) {
@@ -144,9 +176,11 @@ static void describe(Archive& a, Scene& scene) {
     if (!scene.si()) scene.grains.density = 6 / std::numbers::pi;
   }
   a.required_section("incline", scene.incline);
-  if (Archive::reading || scene.domain.periodic || scene.domain.size) a.section("domain", scene.domain);
+  if (!std::same_as<Archive, TomlWriter> || scene.domain.periodic || scene.domain.size)
+    a.section("domain", scene.domain);
   BedTable bed{scene.bed};
   a.required_section("bed", bed);
+  a.sections("wall", scene.walls);
   a.required_section("grains", scene.grains);
   a.required_section("contact", scene.contact);
   EngineTable engine{scene.engine};
@@ -166,7 +200,13 @@ static void describe(Archive& a, Scene& scene) {
   }
 }
 
-double Incline::theta() const { return sine ? std::asin(*sine) : parse_angle(*angle).value(); }
+Tilt Tilting::tilt(double gravity) const {
+  return {parse_angle(from).value(), parse_angle(to).value(), parse_angle(rate).value(), gravity};
+}
+
+double Incline::theta() const {
+  return tilting ? tilting->tilt(gravity).from : sine ? std::asin(*sine) : parse_angle(*angle).value();
+}
 
 /// Refuses runs of more steps than can be counted.
 static void check_step_count(const Scene& scene, const engines::Setting& setting, const TomlReader& reader) {
@@ -205,6 +245,21 @@ std::string to_toml(const Scene& scene) {
   Scene copy = scene;
   describe(writer, copy);
   return writer.text();
+}
+
+std::vector<KeyText> plain_keys() {
+  KeyLister lister;
+  Scene scene;
+  scene.incline.angle = "18 deg";
+  describe(lister, scene);
+  std::vector<KeyText> keys;
+  for (const auto& key : lister.keys()) {
+    const auto in = [&](const char* table) { return key.key.starts_with(table); };
+    const bool told_elsewhere = in("bed.") || in("grains.start.") || in("engine.") || in("contact.") ||
+                                (in("output.") && key.key != "output.checkpoint");
+    if (!told_elsewhere) keys.push_back(key);
+  }
+  return keys;
 }
 
 }  // namespace chute::scene

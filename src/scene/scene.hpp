@@ -11,6 +11,7 @@
 #include "engines/kind/method.hpp"
 #include "laws/contact_spec.hpp"
 #include "measure/observer.hpp"
+#include "scene/wall_spec.hpp"
 #include "starts/start.hpp"
 
 /// A scene: what a physicist writes down to define a run. Lengths, times and masses are in SI or in reduced
@@ -22,19 +23,27 @@ namespace chute::scene {
 enum class Units { reduced, si };
 inline constexpr std::array<std::string_view, 2> units_words{"reduced", "SI"};
 
+/// An angle that changes steadily, `angle = { from = "0 deg", to = "30 deg", rate = "0.1 deg" }`, rate per time.
+struct Tilting {
+  std::string from, to, rate;
+  Tilt tilt(double gravity) const;
+};
+
 /// Inclination θ: `angle = "18 deg"` (or `"0.3 rad"`), or `sin = 0.094`. Kept as it was written, so that the
 /// resolved scene gives the same bytes.
 struct Incline {
   std::optional<std::string> angle;
+  std::optional<Tilting> tilting;  ///< the same key as a table
   std::optional<double> sine;
-  double gravity = 0;  ///< g; default 9.81 m/s² in SI, 1 in reduced units
-  double theta() const;
+  double gravity = 0;    ///< g; default 9.81 m/s² in SI, 1 in reduced units
+  double theta() const;  ///< at the start
 };
 
 /// [domain]: which directions repeat, and after which length. The bed says the rest.
 struct DomainSpec {
-  std::optional<std::vector<std::string>> periodic;  ///< of "x", "y", "z"; default "x" in 2D, "x" and "y" in 3D
-  std::optional<std::vector<double>> size;           ///< lengths along x, y, z
+  std::optional<std::vector<std::string>>
+      periodic;                             ///< of "x", "y", "z"; default "x" in 2D, "x" and "y" in 3D
+  std::optional<std::vector<double>> size;  ///< lengths along x, y, z
 };
 
 struct Diameter {
@@ -46,8 +55,9 @@ struct GrainsSpec {
   std::optional<Diameter> diameter;
   std::optional<double> size_ratio;  ///< Φ = R/r instead of a diameter
   double density = 0;  ///< grains are spheres, in 2D too; default 6/π in reduced units (m = d³)
-  bool independent = false;  ///< grains do not feel each other: `count` starts of a single grain, side by side
-  bool rotation = true;      ///< false: grains never spin, as if friction acted at their centres (thesis 4.2.4.2)
+  bool independent =
+      false;             ///< grains do not feel each other: `count` starts of a single grain, side by side
+  bool rotation = true;  ///< false: grains never spin, as if friction acted at their centres (thesis 4.2.4.2)
   Chosen<starts::Start> start;
 };
 
@@ -59,6 +69,7 @@ struct Scene {
   Incline incline;
   DomainSpec domain;
   Chosen<beds::Bed> bed;
+  std::vector<WallSpec> walls;  ///< [[wall]]
   GrainsSpec grains;
   laws::ContactSpec contact;
   Chosen<engines::Method> engine;
@@ -89,6 +100,9 @@ Scene parse_scene(std::string_view text, const std::string& name,
 
 /// The complete scene as TOML: reading it gives the same scene.
 std::string to_toml(const Scene& scene);
+
+/// The keys that all scenes have, whatever their beds, starts, methods and observers.
+std::vector<KeyText> plain_keys();
 
 /// Every key that a scene can have, table by table, with what it means: `chute check --keys` and the README.
 std::string keys_table();

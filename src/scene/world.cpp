@@ -28,13 +28,16 @@ Periods periods_of(const Scene& scene, const beds::Ground& ground) {
   Periods periods;
   const auto dimensions = static_cast<std::size_t>(scene.dimensions);
   const bool flat = dimensions == 2;
-  const auto names = scene.domain.periodic.value_or(
-      flat ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"});
-  const auto refuse = [&](const char* key, const std::string& message) { periods.wrong = Refusal{key, message}; };
+  const auto names = scene.domain.periodic.value_or(flat ? std::vector<std::string>{"x"}
+                                                         : std::vector<std::string>{"x", "y"});
+  const auto refuse = [&](const char* key, const std::string& message) {
+    periods.wrong = Refusal{key, message};
+  };
   for (const auto& name : names) {
     const auto k = name.size() == 1 ? static_cast<std::size_t>(name[0] - 'x') : dimensions;
     if (k >= dimensions) {
-      refuse("domain.periodic", fmt::format("\"{}\" is no direction, allowed: {}", name, flat ? "x, y" : "x, y, z"));
+      refuse("domain.periodic",
+             fmt::format("\"{}\" is no direction, allowed: {}", name, flat ? "x, y" : "x, y, z"));
       return periods;
     }
     const auto& size = scene.domain.size;
@@ -43,9 +46,12 @@ Periods periods_of(const Scene& scene, const beds::Ground& ground) {
     if (k == 0) of_bed = ground.length;
     if (k == 1 && !flat) of_bed = ground.width;
     if (given && of_bed && std::abs(*given / *of_bed - 1) > 1e-9)
-      refuse("domain.size", fmt::format("{:.6g} along {} is not the bed's own length, {:.6g}", *given, name, *of_bed));
+      refuse("domain.size",
+             fmt::format("{:.6g} along {} is not the bed's own length, {:.6g}", *given, name, *of_bed));
     if (!given && !of_bed)
-      refuse("domain.size", fmt::format("missing: how long is a period along {}? Neither the bed nor domain.size says", name));
+      refuse(
+          "domain.size",
+          fmt::format("missing: how long is a period along {}? Neither the bed nor domain.size says", name));
     periods.length[k] = of_bed.value_or(given.value_or(0));
   }
   return periods;
@@ -60,7 +66,8 @@ std::optional<double> given_diameter(const Scene& scene) {
 /// Radii of the grains that the scene describes, in the order of their ids.
 std::vector<double> radii_of(const Scene& scene) {
   constexpr double farthest = 3;  // standard deviations
-  const double d = given_diameter(scene).value_or(1), std = scene.grains.diameter ? scene.grains.diameter->std : 0;
+  const double d = given_diameter(scene).value_or(1),
+               std = scene.grains.diameter ? scene.grains.diameter->std : 0;
   std::vector<double> radii;
   for (std::int64_t i = 0; i < scene.grains.count; ++i) {
     double z = 0;
@@ -74,9 +81,19 @@ std::vector<double> radii_of(const Scene& scene) {
 
 starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const Periods& periods) {
   const bool flat = scene.dimensions == 2;
-  starts::Opening opening{scene.dimensions, seed_of(scene), periods.length[0], flat ? 0 : periods.length[1], ground,
-                          scene.bed->diameter, given_diameter(scene).value_or(scene.bed->diameter),
-                          scene.grains.independent, {}};
+  const auto room = [&](std::size_t k) {
+    const auto& size = scene.domain.size;
+    return periods.length[k] > 0 ? periods.length[k] : size && k < size->size() ? (*size)[k] : 0;
+  };
+  starts::Opening opening{scene.dimensions,
+                          seed_of(scene),
+                          room(0),
+                          flat ? 0 : room(1),
+                          ground,
+                          scene.bed->diameter,
+                          given_diameter(scene).value_or(scene.bed->diameter),
+                          scene.grains.independent,
+                          {}};
   if (!scene.grains.start->brings_grains()) opening.radii = radii_of(scene);
   return opening;
 }
@@ -84,6 +101,7 @@ starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const
 /// Sizes of the grains, whoever says them.
 struct Sizes {
   double mean_diameter = 1, mean_mass = 1, smallest = 0, largest = 0;  // radii
+  double fastest = 0;
   std::int64_t count = 1;
 };
 
@@ -92,8 +110,11 @@ Sizes sizes_of(const Scene& scene) {
   std::vector<double> radii, masses;
   if (scene.grains.start->brings_grains()) {
     const auto ground = scene.bed->lay(site_of(scene));
-    for (const auto& launch : scene.grains.start->begin(opening_of(scene, ground, periods_of(scene, ground)))) {
+    for (const auto& launch :
+         scene.grains.start->begin(opening_of(scene, ground, periods_of(scene, ground)))) {
       radii.push_back(launch.radius);
+      const auto& v = launch.velocity;
+      sizes.fastest = std::max(sizes.fastest, std::hypot(v[0], v[1], v[2]));
       masses.push_back(launch.mass.value_or(sphere_mass(scene.grains.density, launch.radius)));
     }
     sizes.mean_diameter = 2 * estimate_of(radii).mean;
@@ -133,7 +154,13 @@ engines::Setting setting_of(const Scene& scene) {
   s.grains = sizes.count;
   s.independent = scene.grains.independent;
   s.rotation = scene.grains.rotation;
-  if (const auto* start = scene.grains.start.as<starts::MadeStart>()) s.launch_velocity = start->velocity;
+  for (const auto& wall : scene.walls) s.wall_surfaces.push_back(wall.surface);
+  s.fastest = sizes.fastest;
+  if (const auto* start = scene.grains.start.as<starts::MadeStart>()) {
+    constexpr double farthest = 3.5;  // standard deviations; one component in two thousand is faster
+    s.launch_velocity = start->velocity;
+    s.fastest = std::hypot(start->velocity, start->velocity_up) + farthest * start->spread;
+  }
 
   const bool many = s.grains > 1 && !s.independent, beads = !ground.beads.empty();
   const double r = s.bead_diameter / 2;
@@ -148,13 +175,60 @@ engines::Setting setting_of(const Scene& scene) {
   if (beads || ground.smooth)
     add(many ? " bed" : "", many ? "a mean grain with the bed" : "the grain with the bed", with_bed(R, m),
         R + (ground.smooth ? 0 : r));
-  if (s.pairs.empty()) add("", "the grain with another", many ? laws::Pair(m / 2, R / 2) : with_bed(R, m), R + r);
+  if (s.pairs.empty())
+    add("", "the grain with another", many ? laws::Pair(m / 2, R / 2) : with_bed(R, m), R + r);
   if (many && sizes.smallest < sizes.largest) {
     const double least = sphere_mass(scene.grains.density, sizes.smallest);
     s.stiffest = {"", "the two smallest grains", {least / 2, sizes.smallest / 2}, 2 * sizes.smallest};
   }
   return s;
 }
+
+namespace {
+
+/// What of [[wall]] cannot be.
+std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers, const Periods& periods,
+                                        double widest) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    const WallSpec& wall = scene.walls[w];
+    const auto path = fmt::format("wall[{}]", w);
+    if (auto wrong = misfit(wall, path, scene.dimensions)) return wrong;
+    const auto lacks = [&](bool has, const char* key, bool asked,
+                           const char* what) -> std::optional<Refusal> {
+      if (has || !asked) return {};
+      return Refusal{path + key, fmt::format("engine.method = \"{}\" {}", scene.engine.word(), what)};
+    };
+    const auto& own = wall.surface;
+    for (const auto& wrong :
+         {lacks(offers.walls, "", true, "knows no walls"),
+          lacks(offers.wall_shapes, "", !wall.is_plane() || wall.moves(),
+                "knows only planes that stand still"),
+          lacks(offers.wall_surfaces, ".friction", own.friction.has_value(),
+                "gives walls no friction of their own"),
+          lacks(offers.wall_surfaces, ".restitution", own.restitution.has_value(),
+                "gives walls no restitution of their own"),
+          lacks(offers.wall_sticking, ".tangential_restitution", own.tangential_restitution.has_value(),
+                "knows no tangential restitution"),
+          lacks(offers.static_friction, ".static_friction", own.static_friction.has_value(),
+                "knows one friction only, at rest and sliding")})
+      if (wrong) return wrong;
+    constexpr double clear = 1.5;  // of a grain: with less it would touch two images of the wall at once
+    const double size = [&] {
+      const auto extent = [](const auto& made) { return made.bounded() ? 2 * made.bounded()->extent() : 0; };
+      return scene.dimensions == 2 ? extent(make_wall<2>(wall)) : extent(make_wall<3>(wall));
+    }();
+    for (const double period : periods.length)
+      if (period > 0 && size > 0 && size + clear * widest > period)
+        return Refusal{
+            path,
+            fmt::format("is {:.4g} long: with a grain it does not fit into the period of {:.4g}; a plane "
+                        "goes on for ever",
+                        size, period)};
+  }
+  return {};
+}
+
+}  // namespace
 
 std::optional<Refusal> refusal_of(const Scene& scene) {
   const auto site = site_of(scene);
@@ -166,32 +240,44 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
   if (const auto wrong = scene.grains.start->misfit(opening)) return wrong;
 
   const auto setting = setting_of(scene);
-  constexpr double clear = 1.7;  // of the widest contact: with a period shorter than two of them grains touch their images
+  constexpr double clear =
+      1.7;  // of the widest contact: with a period shorter than two of them grains touch their images
   const double needed = 2 * std::max(setting.mean_diameter, beds::widest(ground)) * clear;
   for (std::size_t k = 0; k < 3; ++k)
     if (periods.length[k] > 0 && periods.length[k] < needed)
-      return Refusal{k == 0 && ground.length ? scene.bed->length_key() : "domain.size",
-                     fmt::format("a periodic {} of length {:.4g} is too short for grains of diameter {:.4g}: a grain "
-                                 "would touch its own image; needed {:.4g}",
-                                 scene.dimensions == 2 ? "line" : "domain", periods.length[k], setting.mean_diameter, needed)};
+      return Refusal{
+          k == 0 && ground.length ? scene.bed->length_key() : "domain.size",
+          fmt::format("a periodic {} of length {:.4g} is too short for grains of diameter {:.4g}: a grain "
+                      "would touch its own image; needed {:.4g}",
+                      scene.dimensions == 2 ? "line" : "domain", periods.length[k], setting.mean_diameter,
+                      needed)};
 
   const auto& method = *scene.engine;
   const auto offers = method.offers();
-  const auto lacks = [&](bool has, const char* what, const std::string& key, bool asked) -> std::optional<Refusal> {
+  const auto lacks = [&](bool has, const char* what, const std::string& key,
+                         bool asked) -> std::optional<Refusal> {
     if (has || !asked) return {};
     return Refusal{key, fmt::format("engine.method = \"{}\" {}", scene.engine.word(), what)};
   };
-  if (auto r = lacks(scene.dimensions == 2 ? offers.in_2d : offers.in_3d,
-                     scene.dimensions == 2 ? "knows no plane" : "knows no third dimension", "dimensions", true))
+  if (auto r =
+          lacks(scene.dimensions == 2 ? offers.in_2d : offers.in_3d,
+                scene.dimensions == 2 ? "knows no plane" : "knows no third dimension", "dimensions", true))
     return r;
-  if (auto r = lacks(offers.independent, "lets all grains feel each other", "grains.independent", scene.grains.independent))
+  if (auto r = lacks(offers.independent, "lets all grains feel each other", "grains.independent",
+                     scene.grains.independent))
+    return r;
+  if (auto r = lacks(offers.tilting, "keeps the incline where it is, give one angle", "incline.angle",
+                     scene.incline.tilting.has_value()))
     return r;
   if (auto r = lacks(offers.walls, "knows no walls", "bed.kind", ground.smooth)) return r;
+  if (auto r = refusal_of_walls(scene, offers, periods, setting.mean_diameter)) return r;
   for (const auto& output : scene.output) {
     if (!output->wanted()) continue;
     const auto needs = output->needs();
-    if (auto r = lacks(offers.contacts, "tells of no contacts", "output." + output.word(), needs.contacts)) return r;
-    if (auto r = lacks(offers.impacts, "tells of no impacts", "output." + output.word(), needs.impacts)) return r;
+    if (auto r = lacks(offers.contacts, "tells of no contacts", "output." + output.word(), needs.contacts))
+      return r;
+    if (auto r = lacks(offers.impacts, "tells of no impacts", "output." + output.word(), needs.impacts))
+      return r;
   }
   return method.refusal(setting);
 }
@@ -212,7 +298,8 @@ World<D> make_world(const Scene& scene) {
     const double mass = launch.mass.value_or(sphere_mass(scene.grains.density, launch.radius));
     grains.add(place, launch.radius, mass, sphere_inertia(mass, launch.radius), true);
     for (int k = 0; k < D; ++k) grains.velocity[k].back() = launch.velocity[static_cast<std::size_t>(k)];
-    for (int k = 0; k < turns<D>; ++k) grains.spin[k].back() = launch.spin[static_cast<std::size_t>(D == 2 ? 2 : k)];
+    for (int k = 0; k < turns<D>; ++k)
+      grains.spin[k].back() = launch.spin[static_cast<std::size_t>(D == 2 ? 2 : k)];
     if (launch.orientation)
       for (int k = 0; k < orientation_numbers<D>; ++k)
         grains.orientation[k].back() = (*launch.orientation)[static_cast<std::size_t>(k)];
@@ -230,14 +317,17 @@ World<D> make_world(const Scene& scene) {
     grains.add(place, bead.radius, mass, sphere_inertia(mass, bead.radius), false);
   }
   for (int k = 0; k < D; ++k)
-    if (const double length = periods.length[static_cast<std::size_t>(k)]; length > 0) world.domain.length[k] = length;
+    if (const double length = periods.length[static_cast<std::size_t>(k)]; length > 0)
+      world.domain.length[k] = length;
   world.gravity = gravity_on_incline<D>(scene.incline.gravity, scene.incline.theta());
+  if (scene.incline.tilting) world.tilt = scene.incline.tilting->tilt(scene.incline.gravity);
   const double d = given_diameter(scene).value_or(mean);
   if (ground.smooth) {
     Wall<D> wall;
     wall.normal[D - 1] = 1;
     world.walls.push_back(wall);
   }
+  for (const auto& wall : scene.walls) world.walls.push_back(make_wall<D>(wall));
   if (ground.smooth || !ground.beads.empty()) world.floor = -(scene.bed->diameter + d);
   world.frame.dimensions = D;
   world.frame.bead_spacing = ground.spacing > 0 ? ground.spacing : d;

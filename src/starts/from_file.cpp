@@ -15,19 +15,22 @@ namespace fs = std::filesystem;
 
 std::vector<io::GrainRecord> grains_of(const FromFile& start) {
   const fs::path path = start.from;
-  if (!fs::exists(path)) throw InputError(fmt::format("grains.start.from: {}: no such run or file", start.from));
+  if (!fs::exists(path))
+    throw InputError(fmt::format("grains.start.from: {}: no such run or file", start.from));
   if (!fs::is_directory(path)) return io::read_grains(path);
   if (!start.frame && !start.time) {
     const auto checkpoint = path / "checkpoint";
     if (!fs::exists(checkpoint))
-      throw InputError(fmt::format("grains.start.from: {}: not a run with a checkpoint; give frame or time", start.from));
+      throw InputError(
+          fmt::format("grains.start.from: {}: not a run with a checkpoint; give frame or time", start.from));
     return io::parse_grains(io::read_checkpoint_grains(checkpoint), checkpoint.string());
   }
   const auto frames = io::read_pvd(path / "frames.pvd");
   if (start.frame) {
     const auto k = static_cast<std::size_t>(*start.frame);
     if (k >= frames.size())
-      throw InputError(fmt::format("grains.start.frame: {} is not there, the run has frames 0 to {}", k, frames.size() - 1));
+      throw InputError(fmt::format("grains.start.frame: {} is not there, the run has frames 0 to {}", k,
+                                   frames.size() - 1));
     return io::read_grains(frames[k].second);
   }
   for (const auto& [time, file] : frames)
@@ -40,7 +43,8 @@ std::vector<io::GrainRecord> grains_of(const FromFile& start) {
 
 std::optional<Refusal> FromFile::misfit(const Opening& opening) const {
   if (opening.independent)
-    return Refusal{"grains.start.from", "grains that were in touch cannot go on as if they did not feel each other"};
+    return Refusal{"grains.start.from",
+                   "grains that were in touch cannot go on as if they did not feel each other"};
   return {};
 }
 
@@ -48,8 +52,8 @@ std::vector<Launch> FromFile::begin(const Opening& opening) const {
   std::vector<Launch> launches;
   for (const auto& g : grains_of(*this)) {
     if (opening.dimensions == 2 && g.place[2] != 0)
-      throw InputError(fmt::format("grains.start.from: {}: its grains do not lie in a plane z = 0; needs dimensions = 3",
-                                   from));
+      throw InputError(fmt::format(
+          "grains.start.from: {}: its grains do not lie in a plane z = 0; needs dimensions = 3", from));
     launches.push_back({g.place, g.velocity, g.spin, g.radius, g.orientation, g.mass, g.material});
   }
   return launches;

@@ -13,13 +13,16 @@ std::int64_t Square::columns(double length, double step) const {
 
 std::optional<Refusal> Square::misfit(const Opening& o) const {
   if (o.length == 0 || (o.dimensions == 3 && o.width == 0))
-    return Refusal{"grains.start", "a lattice fills a bounded domain: give domain.size, or a bed that has a size"};
+    return Refusal{"grains.start",
+                   "a lattice fills a bounded domain: give domain.size, or a bed that has a size"};
   const double largest = *std::max_element(o.radii.begin(), o.radii.end()), d = step(o);
   const double narrowest = o.dimensions == 3 ? std::min(o.length, o.width) : o.length;
   if (columns(narrowest, d) >= 1 && 2 * largest <= d) return {};
-  return Refusal{"grains.start.spacing",
-                 fmt::format("{:.4g} is too small for grains of diameter {:.4g} or too large for a line of length {:.4g}",
-                             d, 2 * largest, narrowest)};
+  return Refusal{
+      "grains.start.spacing",
+      fmt::format(
+          "{:.4g} is too small for grains of diameter {:.4g} or too large for a line of length {:.4g}", d,
+          2 * largest, narrowest)};
 }
 
 std::vector<Launch> Square::begin(const Opening& o) const {
@@ -40,8 +43,9 @@ std::vector<Launch> Square::begin(const Opening& o) const {
 
 std::optional<Refusal> Alone::misfit(const Opening& o) const {
   if (o.radii.size() != 1 && !o.independent)
-    return Refusal{"grains.start",
-                   "lattice = \"none\" starts a single grain, or independent ones; use lattice = \"square\" for more"};
+    return Refusal{
+        "grains.start",
+        "lattice = \"none\" starts a single grain, or independent ones; use lattice = \"square\" for more"};
   if (y && o.dimensions == 2) return Refusal{"grains.start.y", "there is no place across in 2D"};
   if (!x && o.length == 0)
     return Refusal{"grains.start.x", "missing: where along an unbounded domain? Or give domain.size"};
@@ -58,7 +62,8 @@ std::vector<Launch> Alone::begin(const Opening& o) const {
     const double evenly = o.length > 0 ? std::fmod(gap + static_cast<double>(i) * o.length / n, o.length) : 0;
     // Beds of one row lie at y = 0; on a plane balls begin in the middle of it.
     const double across = y.value_or(o.ground.width ? *o.ground.width / 2 : 0);
-    launches.push_back(launch_at(o, x.value_or(evenly), across, height.value_or(r + o.radii[i] + 0.05 * r), o.radii[i]));
+    launches.push_back(
+        launch_at(o, x.value_or(evenly), across, height.value_or(r + o.radii[i] + 0.05 * r), o.radii[i]));
   }
   set_velocities(o, launches);
   return launches;

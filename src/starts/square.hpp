@@ -26,12 +26,14 @@ class Square final : public Described<MadeStart, Square> {
 /// One grain at a place, or many that do not feel each other.
 class Alone final : public Described<MadeStart, Alone> {
  public:
-  static constexpr std::string_view word = "none", text = "one grain at a place, or independent ones along the line";
+  static constexpr std::string_view word = "none",
+                                    text = "one grain at a place, or independent ones along the line";
   std::optional<double> x, y, height;
 
   template <class Archive>
   void describe(Archive& a) {
-    a.value("x", x, "place along the line; default above the first gap, or, of independent grains, evenly along it");
+    a.value("x", x,
+            "place along the line; default above the first gap, or, of independent grains, evenly along it");
     a.value("y", y, "3D: place across; default as x, or 0 above a line");
     a.value("height", height, "of the centre; default a twentieth of a bead's radius above touching");
     describe_velocities(a);

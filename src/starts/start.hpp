@@ -18,8 +18,8 @@ struct Opening {
   double length = 0, width = 0;  ///< of the domain along and across; 0 where it is not bounded
   const beds::Ground& ground;
   double bead_diameter = 1, mean_diameter = 1;
-  bool independent = false;    ///< grains do not feel each other
-  std::vector<double> radii;   ///< of the grains, in the order of their ids; empty if the start brings them
+  bool independent = false;   ///< grains do not feel each other
+  std::vector<double> radii;  ///< of the grains, in the order of their ids; empty if the start brings them
 };
 
 /// One moving grain at the start, in the coordinates of files (in 2D x, y with z = 0; spin about z).
@@ -48,5 +48,6 @@ Catalogue<Start>& list();
 /// Which of them a table [grains.start] names: by `from`, by `kind`, or by `lattice`, the older word.
 void choose_start(TomlReader& a, Chosen<Start>& start);
 void choose_start(TomlWriter& a, Chosen<Start>& start);
+inline void choose_start(KeyLister& a, Chosen<Start>& start) { choose_kind(a, "kind", start, list()); }
 
 }  // namespace chute::starts

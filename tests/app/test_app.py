@@ -160,6 +160,12 @@ class Help(App):
                 self.assertEqual(done.stderr, "")
                 self.assertRegex(done.stdout, r"Example: chute " + verb)
 
+    def test_the_readme_has_the_keys(self):
+        keys = self.run_chute("check", "--keys").stdout.strip()
+        self.assertGreater(len(keys), 5000)
+        with open(os.path.join(sources, "README.md"), encoding="utf-8") as readme:
+            self.assertIn(keys, readme.read(), "put what `chute check --keys` prints at the end of README.md")
+
     def test_version(self):
         done = self.run_chute("--version")
         self.assertEqual(done.returncode, DONE)

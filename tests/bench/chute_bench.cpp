@@ -10,9 +10,9 @@
 #include <map>
 
 #include "core/random.hpp"
+#include "engines/soft/soft_engine.hpp"
 #include "engines/soft/soft_method.hpp"
 #include "scene/world.hpp"
-#include "engines/soft/soft_engine.hpp"
 
 namespace {
 

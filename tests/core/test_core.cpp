@@ -55,10 +55,11 @@ TEST_CASE("random numbers are Philox's, at the counter (draw, item, step, purpos
   CHECK(placed() == (block.v[0] | std::uint64_t{block.v[1]} << 32));
   CHECK(placed() == (block.v[2] | std::uint64_t{block.v[3]} << 32));
   CHECK(zero.uniform() == static_cast<double>([] {
-          Random same(0, static_cast<Purpose>(0));
-          same(), same();
-          return same() >> 11;
-        }()) * std::pow(2.0, -53));
+                            Random same(0, static_cast<Purpose>(0));
+                            same(), same();
+                            return same() >> 11;
+                          }()) *
+                              std::pow(2.0, -53));
 }
 
 TEST_CASE("random numbers depend on seed, purpose, item and step, and on nothing that was drawn before") {

@@ -47,5 +47,4 @@ inline EventEngine<2> make_engine(const BallOnLine& ball) {
   return EventEngine<2>(std::move(grains), setup);
 }
 
-
 }  // namespace chute::event

@@ -31,7 +31,7 @@ TEST_CASE("a collision tells the impulse on its second grain, with the sign of f
     }
     CHECK(c.normal[0] * c.force[0] + c.normal[1] * c.force[1] == Approx(c.normal_force));
     CHECK(c.normal_force > 0);
-    CHECK(c.shear_force * side > 0);  // along s = (n_y, −n_x): the lower grain is dragged along
+    CHECK(c.shear_force * side < 0);  // against the slip, which is n_x along s = (n_y, −n_x)
     CHECK(std::hypot(c.branch[0], c.branch[1]) == Approx(1));
   }
 }
@@ -59,7 +59,8 @@ TEST_CASE("the collisions of a settling heap add up to its changes of momentum, 
     for (int k = 0; k < 2; ++k) {
       const auto axis = static_cast<std::size_t>(k);
       const double change = view.mass[i] * (view.velocity[axis][i] - start.velocity[axis][i]);
-      CHECK(given[i][k] == Approx(change - view.mass[i] * heap.setup.gravity[k] * engine.time()).margin(1e-9));
+      CHECK(given[i][k] ==
+            Approx(change - view.mass[i] * heap.setup.gravity[k] * engine.time()).margin(1e-9));
     }
   CHECK(with_bed);
   // what touches for a while has a mean force, friction in it, and grains feel it

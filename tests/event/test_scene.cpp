@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "common/error.hpp"
 #include "../runs/make_engine.hpp"
+#include "common/error.hpp"
 #include "theory/stochastic.hpp"
 
 using namespace chute;

@@ -1,11 +1,12 @@
 #include <catch2/catch.hpp>
 
-#include "engines/event/first_contact.hpp"
+#include "engines/hard/first_contact.hpp"
 #include "few_grains.hpp"
 
 using namespace chute;
 using namespace chute::test;
 using namespace chute::event;
+using namespace chute::hard;
 
 namespace {
 

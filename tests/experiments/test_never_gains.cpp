@@ -59,7 +59,7 @@ TEST_CASE("10^5 random impacts with a dissipative normal force never gain energy
       CHECK(deep < 1 + 1e-6);
     }
   const laws::ContactLaws hysteretic{laws::WaltonBraun::from_restitution(k, 0.8),
-                                 laws::CundallStrack{k_s, {0.5, true}}};
+                                     laws::CundallStrack{k_s, {0.5, true}}};
   CHECK(ManyImpacts<2>(1).worst_gain(hysteretic, 20000, 60) < 1 + 1e-6);
 }
 

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "golden.hpp"
-#include "read/contacts.hpp"
 #include "read/grain_frame.hpp"
+#include "read/network.hpp"
+#include "read/surroundings.hpp"
 #include "view/frame_renderer.hpp"
 #include "view/survey.hpp"
 #include "view/time_series.hpp"
@@ -18,8 +19,10 @@ using namespace chute::view;
 struct Subject {
   FrameStyle style;
   read::GrainFrame frame;
-  std::vector<read::Contact> contacts;
+  std::vector<read::ForceLink> links;
   std::vector<read::GrainFrame> earlier;  ///< for trails, the oldest first
+  std::vector<read::WallPiece> walls;
+  std::vector<read::Impact> impacts;
   double time = 0;
   Survey survey;
 };
@@ -29,13 +32,12 @@ std::string data(const std::string& name) {
 }
 
 /// A contact wherever two grains touch, the stronger the deeper they overlap.
-std::vector<read::Contact> touching(const read::GrainFrame& f) {
-  std::vector<read::Contact> found;
+std::vector<read::ForceLink> touching(const read::GrainFrame& f) {
+  std::vector<read::ForceLink> found;
   for (std::size_t i = 0; i < f.size(); ++i)
     for (std::size_t k = i + 1; k < f.size(); ++k) {
-      const double distance = std::hypot(f.x[i] - f.x[k], f.y[i] - f.y[k], f.z[i] - f.z[k]);
-      const double deep = f.radius[i] + f.radius[k] - distance;
-      if (deep > 0) found.push_back({{f.x[i], f.y[i], f.z[i]}, {f.x[k], f.y[k], f.z[k]}, deep});
+      const double deep = f.radius[i] + f.radius[k] - (f.centre(i) - f.centre(k)).norm();
+      if (deep > 0) found.push_back({f.centre(i), f.centre(k), deep});
     }
   return found;
 }
@@ -50,17 +52,22 @@ read::GrainFrame moved(read::GrainFrame frame, double time) {
   return frame;
 }
 
-Subject subject(const FrameStyle& style, const std::string& file) {
+using Change = std::function<void(Subject&)>;
+void nothing(Subject&) {}
+
+/// `furnish` adds to the frame what its file does not hold.
+Subject subject(const FrameStyle& style, const std::string& file, const Change& furnish) {
   Subject s;
   s.style = style;
   s.frame = read::read_frame(data(file));
+  furnish(s);
   s.time = s.frame.time.value_or(0);
   if (style.chains)
-    s.contacts = file == "frame-discs" ? read::read_contacts(data("frame-contacts")) : touching(s.frame);
+    s.links = file == "frame-discs" ? read::read_network(data("frame-contacts")) : touching(s.frame);
   for (int back = style.trail; back > 0; --back) s.earlier.push_back(moved(s.frame, -0.12 * back));
   Surveyor surveyor(style);
   surveyor.see(s.frame);
-  for (const auto& contact : s.contacts) surveyor.see_force(contact.force);
+  for (const auto& link : s.links) surveyor.see_force(link.force);
   s.survey = surveyor.finish();
   return s;
 }
@@ -68,20 +75,24 @@ Subject subject(const FrameStyle& style, const std::string& file) {
 image::Image draw(const Subject& s) {
   std::vector<const read::GrainFrame*> earlier;
   for (const auto& frame : s.earlier) earlier.push_back(&frame);
-  return FrameRenderer(s.style, s.survey).draw(s.frame, s.time, s.contacts, earlier);
+  return FrameRenderer(s.style, s.survey)
+      .draw({.frame = s.frame,
+             .time = s.time,
+             .links = s.links,
+             .earlier = earlier,
+             .walls = s.walls,
+             .impacts = s.impacts});
 }
 
-using Change = std::function<void(Subject&)>;
-
-/// `prepare` adds to the subject what no file holds.
-Golden golden_of(
-    const std::string& name, const FrameStyle& style, const std::string& file,
-    const std::vector<std::pair<std::string, Change>>& changes, const Change& prepare = [](Subject&) {}) {
+/// `prepare` changes the subject when all is known of it.
+Golden golden_of(const std::string& name, const FrameStyle& style, const std::string& file,
+                 const std::vector<std::pair<std::string, Change>>& changes, const Change& prepare = nothing,
+                 const Change& furnish = nothing) {
   Golden golden;
   golden.name = name;
   golden.made_by = fmt::format("view::FrameRenderer of data/{}.vtp, {}", file, style.describe());
   const auto prepared = [=] {
-    auto s = subject(style, file);
+    auto s = subject(style, file, furnish);
     prepare(s);
     return s;
   };
@@ -117,18 +128,18 @@ void turn_camera(Subject& s) { s.style.camera.azimuth += 0.1; }
 /// The strongest of those that lie high, which nothing hides in space.
 void remove_upper_chain(Subject& s) {
   double top = 0;
-  for (const auto& c : s.contacts) top = std::max(top, c.from[2]);
-  const auto seen = [&](const read::Contact& c) {
-    return std::min(c.from[2], c.to[2]) > 0.8 * top ? c.force : 0;
+  for (const auto& c : s.links) top = std::max(top, c.from.z());
+  const auto seen = [&](const read::ForceLink& c) {
+    return std::min(c.from.z(), c.to.z()) > 0.8 * top ? c.force : 0;
   };
-  s.contacts.erase(std::max_element(s.contacts.begin(), s.contacts.end(),
-                                    [&](const auto& a, const auto& b) { return seen(a) < seen(b); }));
+  s.links.erase(std::max_element(s.links.begin(), s.links.end(),
+                                 [&](const auto& a, const auto& b) { return seen(a) < seen(b); }));
 }
 void remove_chain(Subject& s) {
   std::size_t strong = 0;
-  for (std::size_t i = 0; i < s.contacts.size(); ++i)
-    if (s.contacts[i].force > s.contacts[strong].force) strong = i;
-  s.contacts.erase(s.contacts.begin() + static_cast<std::ptrdiff_t>(strong));
+  for (std::size_t i = 0; i < s.links.size(); ++i)
+    if (s.links[i].force > s.links[strong].force) strong = i;
+  s.links.erase(s.links.begin() + static_cast<std::ptrdiff_t>(strong));
 }
 void forget_oldest(Subject& s) { s.earlier.erase(s.earlier.begin()); }
 void add_series(Subject& s) {
@@ -139,6 +150,45 @@ void spin(Subject& s) {
   for (auto& array : s.frame.arrays)
     if (array.name == "angle")
       for (double& angle : array.values) angle += 0.2;
+}
+
+/// Orientations all over the sphere, and three materials.
+void turn_and_mix(Subject& s) {
+  read::PointArray orientation{"orientation", 4, {}}, material{"material", 1, {}};
+  for (std::size_t i = 0; i < s.frame.size(); ++i) {
+    const double t = static_cast<double>(i);
+    const Eigen::Quaterniond q(
+        Eigen::AngleAxisd(2.4 * t, Eigen::Vector3d(std::sin(t), std::cos(t), 0.5).normalized()));
+    orientation.values.insert(orientation.values.end(), {q.w(), q.x(), q.y(), q.z()});
+    material.values.push_back(static_cast<double>(i * i % 3));
+  }
+  s.frame.arrays.push_back(orientation), s.frame.arrays.push_back(material);
+}
+void turn_grains(Subject& s) {
+  for (auto& array : s.frame.arrays)
+    if (array.name == "orientation")
+      for (std::size_t i = 0; i < s.frame.size(); ++i) {
+        double* const q = &array.values[4 * i];
+        const Eigen::Quaterniond turned =
+            Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+        q[0] = turned.w(), q[1] = turned.x(), q[2] = turned.y(), q[3] = turned.z();
+      }
+}
+/// Side walls, and a hit on every bead of the bed, each elsewhere.
+void enclose_and_hit(Subject& s) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < s.frame.size(); ++i) box.extend(s.frame.centre(i));
+  const auto &a = box.min(), &b = box.max();
+  for (const double y : {a.y() - 0.6, b.y() + 0.6})
+    s.walls.push_back({0, {{a.x(), y, a.z()}, {b.x(), y, a.z()}, {b.x(), y, b.z()}, {a.x(), y, b.z()}}});
+  const auto* ids = s.frame.find("id");
+  for (std::size_t i = 0; i < s.frame.size(); ++i) {
+    const double t = static_cast<double>(i);
+    const Eigen::Vector3d out = Eigen::Vector3d(std::sin(t) - 0.5, std::cos(t) - 0.5, 2).normalized();
+    if (s.frame.is_fixed(i))
+      s.impacts.push_back({s.frame.centre(i) + s.frame.radius[i] * out, 0,
+                           ids ? std::llround(ids->at(i)) : static_cast<long long>(i)});
+  }
 }
 
 FrameStyle small() {
@@ -182,7 +232,6 @@ std::vector<Golden> frame_goldens() {
   all.push_back(golden_of(
       "frame-occlusion", style, "frame-spheres",
       {{"occlusion off", [](Subject& s) { s.style.occlusion = false; }}, {"one grain missing", remove_one}}));
-  all.back().tolerance = image::occlusion;
   style = small();
   style.tilt = true, style.color = "none";
   all.push_back(
@@ -219,6 +268,27 @@ std::vector<Golden> frame_goldens() {
   all.push_back(golden_of("frame-flight", style, "frame-spheres",
                           {{"without trails", [](Subject& s) { s.style.trail = 0, s.earlier.clear(); }},
                            {"without arrows", [](Subject& s) { s.style.arrows = false; }}}));
+  style = small();
+  style.color = "material", style.outlines = style.floor = style.box = true;
+  all.push_back(golden_of("frame-materials", style, "frame-spheres",
+                          {{"grains turned by 0.2", turn_grains},
+                           {"without outlines", [](Subject& s) { s.style.outlines = false; }},
+                           {"without floor", [](Subject& s) { s.style.floor = false; }},
+                           {"without box", [](Subject& s) { s.style.box = false; }},
+                           {"two materials exchanged",
+                            [](Subject& s) { std::swap(s.survey.categories[0], s.survey.categories[1]); }}},
+                          nothing, turn_and_mix));
+  style = small();
+  style.occlusion = style.impacts = true, style.color = "none", style.spin = false;
+  style.cuts = {{2, true, 1.2}}, style.camera.elevation = 50;
+  all.push_back(
+      golden_of("frame-impacts", style, "frame-spheres",
+                {{"without walls", [](Subject& s) { s.walls.clear(); }},
+                 {"the front wall 0.1 higher",
+                  [](Subject& s) { s.walls[0].corners[2].z() += 0.1, s.walls[0].corners[3].z() += 0.1; }},
+                 {"without impacts", [](Subject& s) { s.impacts.clear(); }},
+                 {"cut lower", [](Subject& s) { s.style.cuts[0].value -= 0.6; }}},
+                nothing, enclose_and_hit));
   return all;
 }
 

@@ -51,7 +51,9 @@ class Drift final : public Engine {
   GrainsView grains() const override { return view_of(world_.grains, force_, world_.domain, time()); }
   EnergyAccount energy() const override { return {}; }
   std::vector<Contact> contacts() const override { return {}; }
-  std::vector<std::pair<std::string, double>> tells() const override { return {{"drifted", dt_ * static_cast<double>(step_)}}; }
+  std::vector<std::pair<std::string, double>> tells() const override {
+    return {{"drifted", dt_ * static_cast<double>(step_)}};
+  }
   void save(std::ostream& out) const override {
     cereal::PortableBinaryOutputArchive archive(out);
     archive(step_, world_.grains);
@@ -106,7 +108,8 @@ class Summit final : public measure::Remembering<Summit> {
     if (due_.index_at(look.engine.step()) < 0) return;
     const auto grains = look.engine.grains();
     const auto& height = grains.position[run_.frame.normal()];
-    highest_.push_back(*std::max_element(height.begin(), height.begin() + static_cast<std::ptrdiff_t>(grains.moving)));
+    highest_.push_back(
+        *std::max_element(height.begin(), height.begin() + static_cast<std::ptrdiff_t>(grains.moving)));
   }
   void write(const measure::Flow&) const override {
     io::Csv csv(run_.comments("the highest grain"), {"height"});
@@ -180,7 +183,8 @@ std::string refused(const std::vector<std::string>& settings) {
 
 }  // namespace
 
-TEST_CASE("a toy bed, method and observer are read, written back, run and observed, in the plane and in space") {
+TEST_CASE(
+    "a toy bed, method and observer are read, written back, run and observed, in the plane and in space") {
   REQUIRE((bed_is_listed && method_is_listed && observer_is_listed));
   for (const int dimensions : {2, 3}) {
     const test::Folder folder;
@@ -201,16 +205,21 @@ TEST_CASE("a toy bed, method and observer are read, written back, run and observ
 }
 
 TEST_CASE("what a toy method cannot do is refused in one line, at the key that asks for it") {
-  CHECK(refused({"grains.count=100"}) == "--set grains.count: grains.count: drift moves fewer than 100 grains");
-  CHECK_THAT(refused({"output.profiles={from=0}"}), Catch::EndsWith("output.profiles: engine.method = \"drift\" tells of no contacts"));
-  CHECK_THAT(refused({"output.impacts={from=0}"}), Catch::EndsWith("output.impacts: engine.method = \"drift\" tells of no impacts"));
-  CHECK_THAT(refused({"bed={kind=\"flat\",length=10}"}), Catch::EndsWith("engine.method = \"drift\" knows no walls"));
+  CHECK(refused({"grains.count=100"}) ==
+        "--set grains.count: grains.count: drift moves fewer than 100 grains");
+  CHECK_THAT(refused({"output.profiles={from=0}"}),
+             Catch::EndsWith("output.profiles: engine.method = \"drift\" tells of no contacts"));
+  CHECK_THAT(refused({"output.impacts={from=0}"}),
+             Catch::EndsWith("output.impacts: engine.method = \"drift\" tells of no impacts"));
+  CHECK_THAT(refused({"bed={kind=\"flat\",length=10}"}),
+             Catch::EndsWith("engine.method = \"drift\" knows no walls"));
   CHECK_THAT(refused({"bed.stepp=1"}), Catch::EndsWith("bed.stepp: unknown key, did you mean step?"));
 }
 
 TEST_CASE("the table of keys tells of the toys, too") {
   const auto table = scene::keys_table();
-  for (const char* part : {"kind = \"stairs\": beads that alternate", "| `step` | height of every other bead | 0.2 |",
-                           "method = \"drift\": grains that nothing stops", "summit: height of the highest grain"})
+  for (const char* part :
+       {"kind = \"stairs\": beads that alternate", "| `step` | height of every other bead | 0.2 |",
+        "method = \"drift\": grains that nothing stops", "summit: height of the highest grain"})
     CHECK_THAT(table, Catch::Contains(part));
 }

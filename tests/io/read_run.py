@@ -73,7 +73,7 @@ with tempfile.TemporaryDirectory() as folder:
         check(data.GetNumberOfVerts() == 30, path + ": a vertex each")
         arrays = names(data.GetPointData())
         wanted = {"id": 1, "type": 1, "radius": 1, "mass": 1, "velocity": 3, "angular_velocity": 3,
-                  "force": 3, "angle": 1}
+                  "force": 3, "angle": 1, "material": 1}
         shapes = {name: a.GetNumberOfComponents() for name, a in arrays.items()}
         check(shapes == wanted, path + ": arrays %s" % shapes)
         check([arrays["type"].GetValue(i) for i in range(30)] == [1] * 20 + [0] * 10, path + ": type")
@@ -91,7 +91,8 @@ with tempfile.TemporaryDirectory() as folder:
         network = read(os.path.join(run, "contacts", os.path.basename(path)))
         check_field_data(network, path + " (contacts)")
         cells = names(network.GetCellData())
-        check(set(cells) == {"normal_force", "shear_force", "overlap"}, path + ": contacts' arrays")
+        check(set(cells) == {"a", "b", "point", "normal", "branch", "overlap", "force", "normal_force", "shear_force",
+                             "state"}, path + ": contacts' arrays")
         touching += network.GetNumberOfLines()
         for c in range(network.GetNumberOfLines()):
             ends = network.GetCell(c).GetPoints()

@@ -10,8 +10,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "folder.hpp"
 #include "common/error.hpp"
+#include "folder.hpp"
 #include "io/grains_file.hpp"
 #include "io/vtk_files.hpp"
 
@@ -38,15 +38,18 @@ struct Sample {
   std::array<Array, D> force;
   Domain<D> domain;
   Sample() {
-    const double place[][3] = {{1.25, 0, 9}, {-2, 1, 8}, {3, 2.5, 7}}, velocity[][3] = {{1, -1, 9}, {2, 0.1, 8}, {0, 0, 7}};
+    const double place[][3] = {{1.25, 0, 9}, {-2, 1, 8}, {3, 2.5, 7}},
+                 velocity[][3] = {{1, -1, 9}, {2, 0.1, 8}, {0, 0, 7}};
     const double radius[] = {0.5, 0.25, 1};
     for (int i = 0; i < 3; ++i) {
       Vec<D> r;
       for (int k = 0; k < D; ++k) r[k] = place[i][k];
       grains.add(r, radius[i], i + 1, 1, i < 2);
       for (std::size_t k = 0; k < D; ++k) grains.velocity[k].back() = velocity[i][k];
-      for (std::size_t k = 0; k < turns<D>; ++k) grains.spin[k].back() = i - 3.0 + 10.0 * static_cast<double>(k);
-      for (std::size_t k = 0; k < orientation_numbers<D>; ++k) grains.orientation[k].back() = 0.5 * i - static_cast<double>(k);
+      for (std::size_t k = 0; k < turns<D>; ++k)
+        grains.spin[k].back() = i - 3.0 + 10.0 * static_cast<double>(k);
+      for (std::size_t k = 0; k < orientation_numbers<D>; ++k)
+        grains.orientation[k].back() = 0.5 * i - static_cast<double>(k);
       grains.material.back() = 7 - i;
       for (std::size_t k = 0; k < D; ++k) force[k].push_back(5 + i + 3.0 * static_cast<double>(k));
     }
@@ -54,7 +57,7 @@ struct Sample {
   GrainsView view() const { return view_of(grains, force, domain, 1.5); }
 };
 
-const io::RunFacts facts{"SI", 2, {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}, {}, {}};
+const io::RunFacts facts{"SI", 2, {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}, {}};
 
 void check_facts(vtkPolyData* data) {
   auto* field = data->GetFieldData();
@@ -88,7 +91,9 @@ TEMPLATE_TEST_CASE_SIG("grains come back from VTK as they were, to the bit", "",
       CHECK(data->GetPoint(id)[k] == (k < D ? g.position[axis % D][i] : 0));
       CHECK(value("velocity", k) == (k < D ? g.velocity[axis % D][i] : 0));
       CHECK(value("force", k) == (k < D ? s.force[axis % D][i] : 0));
-      CHECK(value("angular_velocity", k) == (D == 3 ? g.spin[axis % turns<D>][i] : k == 2 ? g.spin[0][i] : 0));
+      CHECK(value("angular_velocity", k) == (D == 3   ? g.spin[axis % turns<D>][i]
+                                             : k == 2 ? g.spin[0][i]
+                                                      : 0));
     }
     CHECK(value("id") == i);
     CHECK(value("type") == (i < 2 ? 1 : 0));
@@ -103,7 +108,8 @@ TEMPLATE_TEST_CASE_SIG("grains come back from VTK as they were, to the bit", "",
   check_facts(data);
 }
 
-TEMPLATE_TEST_CASE_SIG("a start reads the moving grains of a file as they were written", "", ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a start reads the moving grains of a file as they were written", "", ((int D), D), 2,
+                       3) {
   const Sample<D> s;
   const auto& g = s.grains;
   const auto bytes = io::grains_vtp(s.view(), facts);
@@ -116,7 +122,8 @@ TEMPLATE_TEST_CASE_SIG("a start reads the moving grains of a file as they were w
     }
     CHECK(read[i].spin[2] == g.spin[turns<D> - 1][i]);
     REQUIRE(read[i].orientation);
-    for (std::size_t k = 0; k < orientation_numbers<D>; ++k) CHECK((*read[i].orientation)[k] == g.orientation[k][i]);
+    for (std::size_t k = 0; k < orientation_numbers<D>; ++k)
+      CHECK((*read[i].orientation)[k] == g.orientation[k][i]);
     CHECK(read[i].radius == g.radius[i]);
     CHECK(read[i].mass == g.mass[i]);
     CHECK(read[i].material == g.material[i]);
@@ -125,13 +132,15 @@ TEMPLATE_TEST_CASE_SIG("a start reads the moving grains of a file as they were w
 
 TEST_CASE("a file of grains that is damaged, or holds none, is refused in one line") {
   const auto bytes = io::grains_vtp(Sample<2>().view(), facts);
-  for (const auto& damaged : {bytes.substr(0, bytes.size() / 2), std::string("no file of VTK's"), std::string()}) {
+  for (const auto& damaged :
+       {bytes.substr(0, bytes.size() / 2), std::string("no file of VTK's"), std::string()}) {
     const auto says = message<InputError>([&] { io::parse_grains(damaged, "grains.vtp"); });
     CHECK(says.starts_with("grains.vtp: "));
     CHECK(says.find('\n') == says.npos);
   }
-  CHECK(message<InputError>([&] { io::parse_grains(io::impacts_vtp({}, facts), "impacts.vtp"); })
-            .starts_with("impacts.vtp: no grains"));
+  CHECK(message<InputError>([&] {
+          io::parse_grains(io::impacts_vtp({}, facts), "impacts.vtp");
+        }).starts_with("impacts.vtp: no grains"));
 }
 
 TEST_CASE("impacts come back from VTK as they were") {
@@ -203,8 +212,11 @@ TEST_CASE("contacts are lines along their branches, with all that they tell") {
 }
 
 TEST_CASE("a wall is drawn where it crosses the room") {
-  io::RunFacts room{"SI", 3, {}, {}, {{{0, 0, 1}, {0, 0, 1}}}, {0, 4, 0, 2, -1, 3}};
-  const auto flat = read_back(io::walls_vtp(room));
+  const io::Room room{0, 4, 0, 2, -1, 3};
+  const auto of = [](std::vector<io::WallFace> faces, int dimensions) {
+    return io::RunFacts{"SI", dimensions, {}, {}, std::move(faces)};
+  };
+  const auto flat = read_back(io::walls_vtp(of(io::faces_of(Wall<3>{{{0, 0, 1}}, {{0, 0, 1}}}, 0, room), 3)));
   REQUIRE(flat->GetNumberOfPolys() == 1);
   REQUIRE(flat->GetNumberOfPoints() == 4);
   CHECK(flat->GetBounds()[0] == Approx(0).margin(1e-9));
@@ -212,13 +224,24 @@ TEST_CASE("a wall is drawn where it crosses the room") {
   CHECK(flat->GetBounds()[3] == Approx(2));
   CHECK(flat->GetBounds()[4] == Approx(1));
   CHECK(flat->GetBounds()[5] == Approx(1));
-  room.walls = {{{0, 0, 9}, {0, 0, 1}}};  // not in the room
-  CHECK(read_back(io::walls_vtp(room))->GetNumberOfPolys() == 0);
-  const io::RunFacts plane{"SI", 2, {}, {}, {{{0, 0, 0}, {-0.6, 0.8, 0}}}, {0, 2, -5, 5, 0, 0}};
-  const auto line = read_back(io::walls_vtp(plane));
+  CHECK(io::faces_of(Wall<3>{{{0, 0, 9}}, {{0, 0, 1}}}, 0, room).empty());  // not in the room
+  const auto line =
+      read_back(io::walls_vtp(of(io::faces_of(Wall<2>{{}, {{-0.6, 0.8}}}, 0, {0, 2, -5, 5, 0, 0}), 2)));
   REQUIRE(line->GetNumberOfLines() == 1);
   CHECK(line->GetBounds()[1] == Approx(2));
   CHECK(line->GetBounds()[3] == Approx(1.5));
+
+  Wall<2> segment{{{1, 1}}, {{0, 1}}};
+  segment.outline = Segment{{{2, 0}}};
+  const auto ending = read_back(io::walls_vtp(of(io::faces_of(segment, 0, {}), 2)));  // whatever the room
+  CHECK(ending->GetBounds()[0] == Approx(-1));
+  CHECK(ending->GetBounds()[1] == Approx(3));
+  Wall<3> pipe{{{0, 0, 5}}};
+  pipe.outline = Cylinder<3>{{{0, 1, 0}}, 2, 0};
+  const auto staves = read_back(io::walls_vtp(of(io::faces_of(pipe, 0, {-1, 1, -3, 3, 4, 6}), 3)));
+  CHECK(staves->GetNumberOfPolys() > 30);
+  CHECK(staves->GetBounds()[4] == Approx(3).margin(1e-9));
+  CHECK(staves->GetBounds()[5] == Approx(7).margin(1e-9));
 }
 
 TEST_CASE("files are binary, compressed, and the same bytes each time") {

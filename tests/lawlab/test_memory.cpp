@@ -138,7 +138,7 @@ TEST_CASE("A pair that turns as one body keeps its tangential spring, about ever
   // contact.
   const double R = 0.5, xi = 1e-7, push = 1e-3, dt = 1e-3;
   const laws::ContactLaws law{laws::SpringDashpot::from_restitution(1e9, 1),
-                          laws::CundallStrack{{1e5, 0, 0, 0}, {1e9, true}}};
+                              laws::CundallStrack{{1e5, 0, 0, 0}, {1e9, true}}};
   soft::ContactStages<3> stages(Domain<3>{}, law);
   soft::Contacts<3> contacts;
   for (const Vec<3>& axis :

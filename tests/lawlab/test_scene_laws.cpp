@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "common/error.hpp"
 #include "../runs/make_engine.hpp"
+#include "common/error.hpp"
 #include "run/facts.hpp"
 #include "scene/world.hpp"
 
@@ -30,9 +30,7 @@ scene::Scene parse(const std::string& contact) { return scene::parse_scene(text(
 
 laws::Pair reference_pair(const scene::Scene& s) { return scene::setting_of(s).reference(); }
 
-laws::NormalImpact impact_of(const scene::Scene& s) {
-  return s.contact.impact(reference_pair(s));
-}
+laws::NormalImpact impact_of(const scene::Scene& s) { return s.contact.impact(reference_pair(s)); }
 
 const std::string frictionless = "[contact.tangential]\nlaw = \"frictionless\"\n";
 std::string normal(const std::string& keys) { return "[contact.normal]\n" + keys + "\n" + frictionless; }

@@ -87,7 +87,8 @@ TEST_CASE("without impacts there is no histogram") {
 
 TEST_CASE("an impact that is not a number belongs to no bin") {
   measure::ImpactHistograms histograms({4, 10, 2}, {0, 10});
-  histograms.add(std::vector{impact(1, NAN, -1, false), impact(1, 0.1, NAN, false), impact(1, 0.1, -1, false)}, moving);
+  histograms.add(
+      std::vector{impact(1, NAN, -1, false), impact(1, 0.1, NAN, false), impact(1, 0.1, -1, false)}, moving);
   const auto gamma = rows_of(histograms).at({"all", "gamma"});
   CHECK(gamma[0].value.mean == Approx(4 / pi));
   for (std::size_t b = 1; b < 4; ++b) CHECK(gamma[b].value.mean == 0);

@@ -113,7 +113,7 @@ TEST_CASE("two independent rasterisers agree on a figure") {
     // and the measure sees one glyph more or less
     for (auto& item : list.items)
       if (auto* run = std::get_if<GlyphRun>(&item)) {
-        run->glyphs[0].at.y += 1000;
+        run->glyphs[0].at.y() += 1000;
         break;
       }
     CHECK(worst_block(rasterise_by_cairo(list, dpi), mesa) > 30);

@@ -370,7 +370,7 @@ TEST_CASE("wild data are drawn without leaving the frame's neighbourhood") {
         if (const auto* f = std::get_if<FillItem>(&item)) path = &f->path;
         if (const auto* l = std::get_if<StrokeItem>(&item)) path = &l->path;
         if (!path) continue;
-        for (Point p : path->points) REQUIRE((std::abs(p.x) < 2000 && std::abs(p.y) < 2000));
+        for (Point p : path->points) REQUIRE((std::abs(p.x()) < 2000 && std::abs(p.y()) < 2000));
       }
     }
 }

@@ -72,8 +72,8 @@ TEST_CASE("text copies out as it reads") {
 
 TEST_CASE("scripts stand where they should and keep 7 points") {
   const auto sub = set_text("$v_x$", 10), super = set_text("$v^2$", 10), both = set_text("$v_x^2$", 10);
-  REQUIRE(glyph_of(sub, 1).at.y > 0);
-  REQUIRE(glyph_of(super, 1).at.y < -2);
+  REQUIRE(glyph_of(sub, 1).at.y() > 0);
+  REQUIRE(glyph_of(super, 1).at.y() < -2);
   REQUIRE(both.descent > sub.descent - 1e-9);
   REQUIRE(both.ascent >= super.ascent - 1e-9);
   for (double size : {7.0, 8.0, 9.0, 20.0})

@@ -29,7 +29,7 @@ double area(const std::vector<Point>& triangles) {
   double sum = 0;
   for (std::size_t i = 0; i < triangles.size(); i += 3) {
     const Point u = triangles[i + 1] - triangles[i], v = triangles[i + 2] - triangles[i];
-    sum += std::abs(u.x * v.y - u.y * v.x) / 2;
+    sum += std::abs(u.x() * v.y() - u.y() * v.x()) / 2;
   }
   return sum;
 }
@@ -138,7 +138,7 @@ TEST_CASE("nothing is drawn outside a clip") {
   list.items.emplace_back(ClipBegin{{10, 10, 20, 30}});
   Path all;
   list.fill(all.rectangle({0, 0, 40, 40}), black);
-  list.items.emplace_back(DotsItem{Path{}.circle({}, 3), {{2, 2}, {30, 30}}, black});
+  list.items.emplace_back(DotsItem{Path{}.circle({0, 0}, 3), {{2, 2}, {30, 30}}, black});
   list.items.emplace_back(ClipEnd{});
   REQUIRE(ink(rasterise(list, 72)) == 200);
   Path dot;

@@ -48,7 +48,7 @@ TEST_CASE("letters of an SVG stand where the list puts them") {
   std::set<std::string> wanted;
   for (const auto& item : list.items)
     if (const auto* run = std::get_if<GlyphRun>(&item))
-      for (const auto& glyph : run->glyphs) wanted.insert(std::to_string(std::lround(1000 * glyph.at.x)));
+      for (const auto& glyph : run->glyphs) wanted.insert(std::to_string(std::lround(1000 * glyph.at.x())));
   std::set<std::string> standing;
   for (const auto& x : found(svg_text(list, {}), "<tspan x=\"([0-9.]*)\""))
     standing.insert(std::to_string(std::lround(1000 * std::stod(x))));
@@ -79,7 +79,7 @@ TEST_CASE("SVG keeps shapes, dashes, clips; long scatter plots become one pictur
   list.width = list.height = 100;
   list.items.emplace_back(ClipBegin{{10, 10, 90, 90}});
   list.stroke(Path().move({0, 0}).line({50, 50}), {1, {4, 2}, Cap::round, Join::bevel}, Color::hex(0x0072B2));
-  DotsItem dots{Path().circle({}, 1), {}, Color::hex(0xD55E00)};
+  DotsItem dots{Path().circle({0, 0}, 1), {}, Color::hex(0xD55E00)};
   for (int i = 0; i < 50; ++i) dots.at.push_back({10 + 1.5 * i, 50});
   list.items.emplace_back(dots);
   list.items.emplace_back(ClipEnd{});

@@ -6,8 +6,8 @@
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
-#include "read/contacts.hpp"
 #include "read/grain_frame.hpp"
+#include "read/network.hpp"
 #include "vtk_files.hpp"
 
 using namespace chute;
@@ -64,7 +64,7 @@ TEST_CASE("A frame reads the same from every kind of VTK file") {
   CHECK(frame.time == 2.5);
   CHECK(frame.units == "reduced");
   CHECK(frame.period(0) == 30);
-  CHECK(frame.gravity == std::array<double, 3>{0.6, -0.8, 0});
+  CHECK(frame.gravity == Eigen::Vector3d(0.6, -0.8, 0));
   CHECK(frame.is_fixed(0));
   CHECK_FALSE(frame.is_fixed(1));
   const auto* velocity = frame.find("velocity");
@@ -232,12 +232,13 @@ TEST_CASE("A contact network has its forces") {
   content.lines = {0, 1, 1, 2};
   content.cells = {{"force", {2, 5}}};
   vtk_files::write(content, folder / "c.vtp");
-  const auto contacts = read::read_contacts(folder / "c.vtp");
+  const auto contacts = read::read_network(folder / "c.vtp");
   REQUIRE(contacts.size() == 2);
-  CHECK(contacts[1].from == std::array<double, 3>{1, 0, 0});
-  CHECK(contacts[1].to == std::array<double, 3>{1, 1, 0});
+  CHECK(contacts[1].from == Eigen::Vector3d(1, 0, 0));
+  CHECK(contacts[1].to == Eigen::Vector3d(1, 1, 0));
   CHECK(contacts[1].force == 5);
   content.cells = {{"nonsense", {2, 5}}};
   vtk_files::write(content, folder / "d.vtp");
-  CHECK_THAT(complaint([&] { read::read_contacts(folder / "d.vtp"); }), Contains("no cell array \"force\""));
+  CHECK_THAT(complaint([&] { read::read_network(folder / "d.vtp"); }),
+             Contains("no cell array \"normal_force\""));
 }

@@ -17,6 +17,7 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace vtk_files {
@@ -33,7 +34,9 @@ void add(vtkFieldData* data, const std::string& name, const std::vector<double>&
 void add_arrays(const Content& content, vtkDataSet* set) {
   for (const auto& [name, values] : content.scalars) add(set->GetPointData(), name, values, 1);
   for (const auto& [name, values] : content.vectors) add(set->GetPointData(), name, values, 3);
-  for (const auto& [name, values] : content.cells) add(set->GetCellData(), name, values, 1);
+  const auto cells = static_cast<std::size_t>(set->GetNumberOfCells());
+  for (const auto& [name, values] : content.cells)
+    add(set->GetCellData(), name, values, static_cast<int>(values.size() / std::max<std::size_t>(1, cells)));
   for (const auto& [name, values] : content.field)
     add(set->GetFieldData(), name, values, static_cast<int>(values.size()));
   if (!content.units.empty()) {
@@ -89,7 +92,16 @@ void write(const Content& content, const std::filesystem::path& path, Kind kind)
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
-  content.lines.empty() ? data->SetVerts(cells) : data->SetLines(cells);
+  if (!content.polygons.empty()) {
+    vtkNew<vtkCellArray> polygons;
+    for (const auto& corners : content.polygons) {
+      const std::vector<vtkIdType> ids(corners.begin(), corners.end());
+      polygons->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+    }
+    data->SetPolys(polygons);
+  } else {
+    content.lines.empty() ? data->SetVerts(cells) : data->SetLines(cells);
+  }
   add_arrays(content, data);
   if (kind == Kind::polydata) return write_with<vtkXMLPolyDataWriter>(data.Get(), path);
   vtkNew<vtkPolyDataWriter> writer;

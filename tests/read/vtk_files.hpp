@@ -14,7 +14,9 @@ struct Content {
   std::map<std::string, std::vector<double>> field;    ///< field data
   std::string units;                                   ///< field data, a text
   std::vector<long long> lines;                        ///< pairs of points
-  std::map<std::string, std::vector<double>> cells;    ///< one value per line
+  std::vector<std::vector<long long>> polygons;        ///< corners of each
+  std::map<std::string, std::vector<double>>
+      cells;  ///< as many values as there are, shared by all cells alike
 };
 
 /// Three grains, as chute writes them.

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "common/error.hpp"
-#include "folder.hpp"
 #include "engines/soft/soft_method.hpp"
+#include "folder.hpp"
 #include "make_engine.hpp"
 #include "run/run.hpp"
 

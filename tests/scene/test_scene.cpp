@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "beds/row.hpp"
 #include "common/atomic_file.hpp"
 #include "common/toml_reader.hpp"
-#include "example.hpp"
-#include "beds/row.hpp"
 #include "engines/soft/soft_method.hpp"
+#include "example.hpp"
 #include "measure/outputs.hpp"
 #include "scene/world.hpp"
 #include "starts/square.hpp"
@@ -113,7 +113,8 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
     CHECK(again.title == scene.title);
     CHECK(again.incline.theta() == scene.incline.theta());
     CHECK(again.grains.density == scene.grains.density);
-    CHECK(again.wants<measure::SeriesOutput>()->series.every == scene.wants<measure::SeriesOutput>()->series.every);
+    CHECK(again.wants<measure::SeriesOutput>()->series.every ==
+          scene.wants<measure::SeriesOutput>()->series.every);
     const auto k = [](const Scene& s) {
       return std::get<laws::SpringDashpot::Keys>(s.contact.normal).stiffness;
     };
@@ -123,8 +124,8 @@ TEST_CASE("the resolved scene reads back the same, with every choice") {
 
 TEST_CASE("settings of the command line win over the file") {
   auto s = parse(example, {"grains.count=12", "grains.diameter.std=0", "incline.angle=20 deg",
-                                 "contact.normal.restitution=", "contact.normal.damping=3",
-                                 "title=plain words", "output.profiles="});
+                           "contact.normal.restitution=", "contact.normal.damping=3", "title=plain words",
+                           "output.profiles="});
   CHECK(s.grains.count == 12);
   CHECK(s.grains.diameter->std == 0);
   CHECK(s.incline.theta() == Approx(20 * pi / 180));

@@ -91,7 +91,7 @@ TEST_CASE("a contact lasts t_n (3.3)") {
 TEST_CASE("restitution asked per pair holds for unequal masses and with a fixed grain") {
   const double e_n = GENERATE(0.3, 0.6, 0.95);
   const laws::ContactLaws contact{laws::SpringDashpot::from_restitution(Acetate::stiffness, e_n),
-                              laws::Frictionless{}};
+                                  laws::Frictionless{}};
   for (double ratio : {0.1, 1.0, 7.0, std::numeric_limits<double>::infinity()}) {
     const bool moves = std::isfinite(ratio);
     const double m_j = moves ? ratio * Acetate::mass : Acetate::mass;

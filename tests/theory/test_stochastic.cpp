@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "common/error.hpp"
-#include "theory/stochastic.hpp"
 #include "engines/stochastic/stochastic_engine.hpp"
+#include "theory/stochastic.hpp"
 
 using namespace chute;
 using namespace chute::theory;

@@ -36,7 +36,7 @@ read::GrainFrame small_chute() {
   auto frame = one_disc();
   frame.x.clear(), frame.y.clear(), frame.z.clear(), frame.radius.clear();
   for (auto& array : frame.arrays) array.values.clear();
-  frame.domain = {0, 10, 0, 0, 0, 0};
+  frame.domain.max() = {10, 0, 0};
   const double slope = 20 * std::acos(-1.0) / 180;
   frame.gravity = {std::sin(slope), -std::cos(slope), 0};
   for (int i = 0; i < 10; ++i) add(frame, i + 0.5, 0, 0, 0.5, 0, 0, 0);
@@ -62,7 +62,7 @@ image::Image picture(const read::GrainFrame& frame, const view::FrameStyle& styl
   view::Surveyor surveyor(style);
   surveyor.see(frame);
   view::FrameRenderer renderer(style, surveyor.finish());
-  return renderer.draw(frame, frame.time.value_or(0));
+  return renderer.draw({.frame = frame, .time = frame.time.value_or(0)});
 }
 
 view::FrameStyle bare(int side) {
@@ -78,7 +78,7 @@ void write(const read::GrainFrame& frame, const std::filesystem::path& path) {
   std::string text = "# vtk DataFile Version 3.0\ngrains\nASCII\nDATASET POLYDATA\n";
   text +=
       fmt::format("FIELD FieldData 3\nTimeValue 1 1 double\n{}\ndomain 6 1 double\n", frame.time.value_or(0));
-  for (double x : frame.domain) text += fmt::format("{} ", x);
+  for (int c = 0; c < 3; ++c) text += fmt::format("{} {} ", frame.domain.min()[c], frame.domain.max()[c]);
   text += "\ngravity 3 1 double\n";
   for (double x : frame.gravity) text += fmt::format("{} ", x);
   text += fmt::format("\nPOINTS {} double\n", frame.size());

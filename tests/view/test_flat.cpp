@@ -95,17 +95,17 @@ TEST_CASE("The spin mark turns with the disc") {
     auto frame = grains::one_disc();
     frame.arrays[2].values[0] = angle;
     const auto seen = mark(picture(frame, style), 48);
-    CHECK(std::hypot(seen.x, seen.y) == Approx(0.6 * 48).epsilon(0.03));
-    CHECK(std::cos(std::atan2(seen.y, seen.x) - angle) > 0.999);
+    CHECK(seen.norm() == Approx(0.6 * 48).epsilon(0.03));
+    CHECK(std::cos(std::atan2(seen.y(), seen.x()) - angle) > 0.999);
   }
   auto still = style;
   still.spin = false;
-  CHECK(std::isnan(mark(picture(grains::one_disc(), still), 48).x));
+  CHECK(std::isnan(mark(picture(grains::one_disc(), still), 48).x()));
 }
 
 TEST_CASE("Copies appear beyond the periodic ends, fainter the farther out") {
   auto frame = grains::one_disc();
-  frame.domain = {-2, 2, 0, 0, 0, 0};
+  frame.domain = {Eigen::Vector3d(-2, 0, 0), Eigen::Vector3d(2, 0, 0)};
   frame.x[0] = 1.8, frame.radius[0] = 0.5;
   grains::add(frame, -1, 1, 0, 0.5);
   view::FrameStyle style;
@@ -178,7 +178,8 @@ TEST_CASE("Force chains are as wide as their forces") {
   for (int i = 0; i < 10; ++i) surveyor.see_force(2);
   view::FrameRenderer renderer(style, surveyor.finish());
   const auto dark_rows = [&](double force) {
-    const auto& image = renderer.draw(frame, 0, {{{-1.5, 0.5, 0}, {1.5, 0.5, 0}, force}});
+    const read::ForceLink link{{-1.5, 0.5, 0}, {1.5, 0.5, 0}, force};
+    const auto& image = renderer.draw({.frame = frame, .links = std::span(&link, 1)});
     double sum = 0;
     for (int y = 0; y < 200; ++y) sum += image.pixel(70, y)[0] < 60;
     return sum;
@@ -192,13 +193,14 @@ TEST_CASE("A trail leads to where a grain was, through the periodic ends") {
   auto style = bare(200);
   style.background = view::Background::transparent, style.trail = 2, style.color = "none";
   auto now = grains::one_disc(), before = now, long_ago = now;
-  now.domain = before.domain = long_ago.domain = {-2, 2, 0, 0, 0, 0};
+  now.domain = before.domain = long_ago.domain = {Eigen::Vector3d(-2, 0, 0), Eigen::Vector3d(2, 0, 0)};
   now.radius[0] = before.radius[0] = long_ago.radius[0] = 0.2;
   now.x[0] = 1.5, before.x[0] = 0.5, long_ago.x[0] = -0.4;
   view::Surveyor surveyor(style);
   surveyor.see(now);
   view::FrameRenderer renderer(style, surveyor.finish());
-  const auto& image = renderer.draw(now, 0, {}, {&long_ago, &before});
+  const std::vector<const read::GrainFrame*> both{&long_ago, &before}, last{&before};
+  const auto& image = renderer.draw({.frame = now, .earlier = both});
   const auto alpha = [&](double x) {
     return static_cast<int>(image.pixel(100 + static_cast<int>(48 * x), 99)[3]);
   };
@@ -207,7 +209,7 @@ TEST_CASE("A trail leads to where a grain was, through the periodic ends") {
   CHECK(alpha(0.0) > 0);
   CHECK(alpha(-1.0) == 0);
   before.x[0] = -1.7;  // it left at the right end and came back at the left one: the nearest copy is at 2.3
-  const auto& wrapped = renderer.draw(now, 0, {}, {&before});
+  const auto& wrapped = renderer.draw({.frame = now, .earlier = last});
   CHECK(wrapped.pixel(100 + 48, 99)[3] == 0);
   CHECK(wrapped.pixel(100 + static_cast<int>(48 * 1.85), 99)[3] > 0);
 }

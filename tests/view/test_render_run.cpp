@@ -195,6 +195,25 @@ TEST_CASE("What cannot be drawn is said in one line") {
     job.style.chains = true;
     CHECK_THROWS_WITH(view::render_run(job), Contains("no contact networks"));
   }
+  SECTION("options that do nothing in a plane") {
+    bool view::FrameStyle::*const options[] = {&view::FrameStyle::occlusion, &view::FrameStyle::outlines,
+                                               &view::FrameStyle::floor, &view::FrameStyle::box};
+    for (const auto option : options) {
+      auto bad = job;
+      bad.style.*option = true;
+      CHECK_THROWS_WITH(view::render_run(bad), Contains("does nothing here: these grains lie in a plane"));
+    }
+    job.style.camera.azimuth = 60;
+    CHECK_THROWS_WITH(view::render_run(job), Contains("--camera AZIMUTH"));
+  }
+  SECTION("no impacts to mark") {
+    job.style.impacts = true;
+    CHECK_THROWS_WITH(view::render_run(job), Contains("no impacts.vtp"));
+  }
+  SECTION("a grain to follow that is not there") {
+    job.style.camera.follow = view::Follow{12345};
+    CHECK_THROWS_WITH(view::render_run(job), Contains("no grain has the id 12345"));
+  }
   SECTION("nothing asked for") {
     job.output.clear();
     CHECK_THROWS_AS(view::render_run(job), InputError);

@@ -3,10 +3,10 @@
 
 #include "common/error.hpp"
 #include "grains.hpp"
+#include "view/arrangement.hpp"
 #include "view/color_map.hpp"
 #include "view/furniture.hpp"
 #include "view/lay_over.hpp"
-#include "view/layout.hpp"
 
 using namespace chute;
 using Catch::Matchers::Contains;
@@ -81,35 +81,36 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
   style.width = width, style.height = height;
   if (GENERATE(false, true)) survey.series.columns = {{"v_x", {}}};
   const double title = 2.6, labels = 1.8;
-  view::Layout layout;
+  view::Arrangement places;
   try {
-    layout = view::arrange(style, survey, aspect, title, labels);
+    places = view::arrange(style, survey, aspect, title, labels);
   } catch (const InputError& error) {  // a plot beside the grains wants its room
     CHECK_THAT(error.what(), Contains("too small for a plot"));
     CHECK((!survey.series.empty() && width < 400));
     return;
   }
-  const double em = layout.em;
-  CAPTURE(width, height, aspect, layout.upright_bar);
+  const double em = places.em;
+  CAPTURE(width, height, aspect, places.upright_bar);
   const plot::Rect page{0, 0, double(width), double(height)};
-  std::vector<plot::Rect> boxes{layout.scene, layout.gravity};
+  std::vector<plot::Rect> boxes{places.scene, places.gravity};
   boxes.push_back(
-      {layout.time.x, layout.time.y - 0.8 * em, layout.time.x + 6 * em, layout.time.y + 0.25 * em});
+      {places.time.x(), places.time.y() - 0.8 * em, places.time.x() + 6 * em, places.time.y() + 0.25 * em});
+  boxes.push_back({places.title.x(), places.title.y() - 0.8 * em, places.title.x() + title * em,
+                   places.title.y() + 0.3 * em});
+  const auto& bar = places.bar;
   boxes.push_back(
-      {layout.title.x, layout.title.y - 0.8 * em, layout.title.x + title * em, layout.title.y + 0.3 * em});
-  const auto& bar = layout.bar;
-  boxes.push_back(
-      layout.upright_bar
+      places.upright_bar
           ? plot::Rect{bar.left, bar.top - 0.6 * em, bar.right + (0.5 + labels) * em, bar.bottom + 0.45 * em}
           : plot::Rect{bar.left - 0.6 * em, bar.top, bar.right + 0.6 * em, bar.bottom + 1.3 * em});
   if (survey.dimensions == 2)
-    boxes.push_back({layout.scale.x, layout.scale.y - 0.4 * em,
-                     layout.scale.x + view::longest_scale(layout.scene, em) + 2.5 * em,
-                     layout.scale.y + 0.4 * em});
-  REQUIRE(layout.has_plot == !survey.series.empty());
-  if (layout.has_plot) boxes.push_back(layout.plot);
-  if (layout.has_key)
-    boxes.push_back({layout.key.x - 9 * em, layout.key.y - 0.8 * em, layout.key.x, layout.key.y + 0.25 * em});
+    boxes.push_back({places.scale.x(), places.scale.y() - 0.4 * em,
+                     places.scale.x() + view::longest_scale(places.scene, em) + 2.5 * em,
+                     places.scale.y() + 0.4 * em});
+  REQUIRE(places.has_plot == !survey.series.empty());
+  if (places.has_plot) boxes.push_back(places.plot);
+  if (places.has_key)
+    boxes.push_back(
+        {places.key.x() - 9 * em, places.key.y() - 0.8 * em, places.key.x(), places.key.y() + 0.25 * em});
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     CAPTURE(i, boxes[i].left, boxes[i].top, boxes[i].right, boxes[i].bottom);
     CHECK(page.contains(boxes[i]));
@@ -118,7 +119,7 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
       CHECK_FALSE(boxes[i].overlaps(boxes[k]));
     }
   }
-  CHECK(layout.scene.width() / layout.scene.height() == Approx(aspect));
+  CHECK(places.scene.width() / places.scene.height() == Approx(aspect));
 }
 
 TEST_CASE("Labels: time, lengths, fields") {

@@ -29,7 +29,7 @@ TEST_CASE("A run's colour range is that of all its moving grains, without the fe
   CHECK_FALSE(s.exceeds_low);
   CHECK(s.has_fixed);
   CHECK_FALSE(s.diverging);
-  CHECK(s.bounds[1] == Approx(999.5));
+  CHECK(s.bounds.max().x() == Approx(999.5));
   CHECK(s.diameter == Approx(1).epsilon(0.01));
 }
 
@@ -60,6 +60,35 @@ TEST_CASE("A range is never empty") {
       CHECK(s.high > s.low);
     }
   }
+}
+
+TEST_CASE("Kinds are told apart, numbers are ordered") {
+  auto frame = grains::cube(3);
+  read::PointArray material{"material", 1, {}};
+  for (std::size_t i = 0; i < frame.size(); ++i) material.values.push_back(i % 2 ? 7 : 3);
+  frame.arrays.push_back(material);
+  view::FrameStyle style;
+  style.color = "material";
+  CHECK(survey_of({frame}, style).categories == std::vector<long long>{3, 7});
+  CHECK(survey_of({frame}).categories.empty());
+  for (std::size_t i = 0; i < frame.size(); ++i) frame.arrays.back().values[i] = static_cast<double>(i);
+  CHECK(survey_of({frame}, style).categories.empty());  // too many to tell apart: a bar
+}
+
+TEST_CASE("A path has no jumps at periodic ends, and is smooth") {
+  std::vector<read::GrainFrame> frames;
+  view::FrameStyle style;
+  style.camera.follow = view::Follow{};
+  for (int i = 0; i < 30; ++i) {
+    auto frame = grains::one_disc();
+    frame.domain = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(10, 0, 0)};
+    frame.time = 4.0 * i;  // at speed 2, 8 of 10: the nearest image would be 2 behind
+    frame.x[0] = std::fmod(8.0 * i + (i % 2 ? 0.2 : -0.2) + 1, 10.0);
+    frames.push_back(frame);
+  }
+  const auto path = survey_of(frames, style).path;
+  REQUIRE(path.size() == 30);
+  for (std::size_t i = 6; i < 24; ++i) CHECK(path[i].x() - path[i - 1].x() == Approx(8).margin(0.1));
 }
 
 TEST_CASE("The slope comes from gravity") {

@@ -4,9 +4,11 @@
 #include <limits>
 #include <vector>
 
-#include "engines/event/flight.hpp"
+#include "engines/hard/flight.hpp"
 
 namespace chute::event {
+
+using hard::Flight;
 
 /// A grid of cells, none narrower than the farthest pair that touches, so that grains meet only in the same
 /// or in neighbouring cells. Grains in flight change cells at times that are known ahead. Where the domain is

@@ -9,7 +9,8 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "engines/event/first_contact.hpp"
+#include "engines/hard/first_contact.hpp"
+#include "engines/hard/wall_flight.hpp"
 
 namespace chute::event {
 namespace {
@@ -58,7 +59,8 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
     }
     Flight<D>::wrap(f.place, f.wraps, setup_.domain);
   }
-  reach_ = widest_moving + (moving > 1 && !grains_.independent ? std::max(widest_moving, widest_fixed) : widest_fixed);
+  reach_ = widest_moving +
+           (moving > 1 && !grains_.independent ? std::max(widest_moving, widest_fixed) : widest_fixed);
   for (int k = 0; k < D; ++k) {
     if (setup_.domain.length[k] < 2 * reach_)
       throw WorkError(
@@ -83,7 +85,8 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
   lay_out();
   for (std::size_t i = 0; i < moving; ++i)
     for (const auto& wall : setup_.walls)
-      if (const double height = wall.height(flights_[i].place); height < flights_[i].radius * (1 - touching))
+      if (const double height = wall.nearest(flights_[i].place, 0, setup_.domain).height;
+          height < flights_[i].radius * (1 - touching))
         throw WorkError(fmt::format("grain {} overlaps a wall by {:.3g} at the start; hard grains cannot", i,
                                     flights_[i].radius - height));
   for (std::size_t i = 0; i < moving; ++i)
@@ -106,7 +109,7 @@ double EventEngine<D>::contact_with(std::size_t i, const Candidate& candidate, d
   const bool swapped = j < i;
   const Flight<D>&a = flights_[swapped ? j : i], &b = flights_[swapped ? i : j];
   const double from = std::max(a.time, b.time);
-  Approach<D> approach;
+  hard::Approach<D> approach;
   const Vec<D> place_a = a.place_at(from), place_b = b.place_at(from);
   for (int k = 0; k < D; ++k) {
     const int periods = candidate.shift[static_cast<std::size_t>(k)];
@@ -119,14 +122,12 @@ double EventEngine<D>::contact_with(std::size_t i, const Candidate& candidate, d
   // The bound is cheap and exact but for rounding, hence the margin; it saves most of the quartics.
   if (from + approach.earliest() * (1 - 1e-9) > limit) return std::numeric_limits<double>::infinity();
   ++work_.predictions;
-  return from + first_contact(approach);
+  return from + hard::first_contact(approach);
 }
 
 template <int D>
-double EventEngine<D>::contact_with_wall(std::size_t i, std::size_t wall) const {
-  const auto& w = setup_.walls[wall];
-  const Flight<D>& f = flights_[i];
-  return f.time + first_contact_with_plane(w.height(f.place) - f.radius, dot(f.velocity, w.normal), dot(f.gravity, w.normal));
+double EventEngine<D>::contact_with_wall(std::size_t i, std::size_t wall, double limit) const {
+  return hard::first_contact_with_wall(flights_[i], setup_.walls[wall], setup_.domain, limit);
 }
 
 /// Looks for grain i's earliest collision: among all neighbours, the likely one first, or, after a crossing,
@@ -148,7 +149,8 @@ void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* cros
       first = {t, j, flights_[j].collisions};
   }
   for (std::size_t w = 0; !crossed && w < setup_.walls.size(); ++w)
-    if (const double t = contact_with_wall(i, w); t < first.time) first = {t, grains_.size() + w, 0};
+    if (const double t = contact_with_wall(i, w, first.time); t < first.time)
+      first = {t, grains_.size() + w, 0};
   plan(i);
 }
 
@@ -201,24 +203,24 @@ void EventEngine<D>::advance(std::int64_t step) {
 }
 
 template <int D>
-laws::Collider<D> EventEngine<D>::collider(std::size_t i) const {
-  if (is_wall(i)) return {{}, {}, 0, 0, 0};
+laws::Collider<D> EventEngine<D>::collider(std::size_t i, const Vec<D>& n) const {
+  if (is_wall(i)) return hard::collider_of(wall_of(i), {0, -1.0 * n}, now_);
   const Flight<D>& f = flights_[i];
   return {f.velocity, f.spin, f.radius, grains_.inverse_mass[i], grains_.inverse_inertia[i]};
 }
 
 /// The collision itself, with the cut-off against collapse; n from a to b.
 template <int D>
-laws::Collision<D> EventEngine<D>::exchange(const Vec<D>& n, const Meeting* train, laws::Collider<D>& a,
-                                            laws::Collider<D>& b) {
+laws::Collision<D> EventEngine<D>::exchange(const Vec<D>& n, const HardContact& contact, const Meeting* train,
+                                            laws::Collider<D>& a, laws::Collider<D>& b) {
   const double v_n = dot(b.velocity - a.velocity, n);
-  const double e_n = laws::restitution_at(setup_.contact.restitution, v_n);
-  if (!train) return setup_.contact.tangential(n, e_n, a, b);
+  const double e_n = laws::restitution_at(contact.restitution, v_n);
+  if (!train) return contact.tangential(n, e_n, a, b);
   const double since = now_ - train->last, t_c = meetings_.contact_time();
   if (since < t_c) ++work_.elastic;
   const double cut_off = laws::ContactTimeCutoff{t_c}(e_n, since, since);
   const double least = since < t_c ? least_rebound * norm(setup_.gravity) * t_c : 0;
-  if (v_n < 0) return setup_.contact.tangential(n, std::max(cut_off, least / -v_n), a, b);
+  if (v_n < 0) return contact.tangential(n, std::max(cut_off, least / -v_n), a, b);
   // A touch without approach: rounding, or grains that do not rebound at all. A normal push parts them.
   laws::Collision<D> push;
   const double m_eff = 1 / (a.inverse_mass + b.inverse_mass), rebound = std::max(v_n, least);
@@ -235,7 +237,7 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   const bool both = j < grains_.moving;
   for (const std::size_t k : {i, j})
     if (k < grains_.moving) cells_.unwind(k, flights_[k].move_to(now_, setup_.domain));
-  const Vec<D> way = way_to(j, flights_[i].place, is_wall(j) ? Vec<D>{} : flights_[j].place);
+  const Vec<D> way = way_to(j, flights_[i].place, is_wall(j) ? Vec<D>{} : flights_[j].place, now_);
   const double distance = norm(way), reach = flights_[i].radius + (is_wall(j) ? 0 : flights_[j].radius);
   if (!(std::abs(distance - reach) <= missed * reach))
     leave_physics(i, fmt::format("it met {} at a distance of {} instead of {}",
@@ -244,11 +246,17 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
 
   const Meeting* train = meetings_.running(i, j, now_);
   note_touch(i, j, n, train);
-  laws::Collider<D> a = collider(i), b = collider(j);
-  const auto done = exchange(n, train, a, b);
+  laws::Collider<D> a = collider(i, n), b = collider(j, n);
+  const Vec<D> surface = b.velocity;
+  const auto done =
+      exchange(n, is_wall(j) ? setup_.contact.with(wall_of(j).surface) : setup_.contact, train, a, b);
+  if (is_wall(j)) account_.wall_work -= dot(done.impulse, surface);
   if (collecting_) {
-    const auto id = [&](std::size_t k) { return is_wall(k) ? wall_id(k - grains_.size()) : static_cast<std::int64_t>(k); };
-    partings_.push_back({now_, id(both ? j : i), id(both ? i : j), dot(b.velocity - a.velocity, n), train != nullptr});
+    const auto id = [&](std::size_t k) {
+      return is_wall(k) ? wall_id(k - grains_.size()) : static_cast<std::int64_t>(k);
+    };
+    partings_.push_back(
+        {now_, id(both ? j : i), id(both ? i : j), dot(b.velocity - a.velocity, n), train != nullptr});
   }
   meetings_.note(i, j, now_, as_file_vector(done.impulse));
   if (collecting_collisions_) collisions_.push_back({told(i, j, flights_[i].place, way, done.impulse), now_});
@@ -265,10 +273,10 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
 
 /// The shortest way from a place to a grain at `to`, or to a wall.
 template <int D>
-Vec<D> EventEngine<D>::way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to) const {
+Vec<D> EventEngine<D>::way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to, double t) const {
   if (!is_wall(partner)) return setup_.domain.way(from, to);
-  const auto& wall = setup_.walls[partner - grains_.size()];
-  return -wall.height(from) * wall.normal;
+  const auto nearest = wall_of(partner).nearest(from, t, setup_.domain);
+  return -nearest.height * nearest.normal;
 }
 
 template <int D>
@@ -292,7 +300,7 @@ void EventEngine<D>::note_touch(std::size_t i, std::size_t j, const Vec<D>& n, c
   const auto grain = both ? j : i, bead = both ? i : j;
   const Vec<D> out = both ? n : -1.0 * n;
   const Flight<D>& hitting = flights_[grain];
-  const Vec<D> v = hitting.velocity - (is_wall(bead) ? Vec<D>{} : flights_[bead].velocity);
+  const Vec<D> v = hitting.velocity - collider(bead, n).velocity;
   Impact impact = impact_at(now_, out, v, hitting.place - hitting.radius * out);
   impact.grain = static_cast<std::int64_t>(grain);
   impact.bead = static_cast<std::int64_t>(bead);
@@ -374,7 +382,7 @@ std::vector<Contact> EventEngine<D>::contacts() const {
       const auto j = static_cast<std::size_t>(m.other);
       Vec<D> force;
       for (int k = 0; k < D; ++k) force[k] = m.impulse[static_cast<std::size_t>(k)] / (m.last - m.first);
-      const Vec<D> way = way_to(j, grains_.place(i), is_wall(j) ? Vec<D>{} : grains_.place(j));
+      const Vec<D> way = way_to(j, grains_.place(i), is_wall(j) ? Vec<D>{} : grains_.place(j), time());
       lasting.push_back(told(i, j, grains_.place(i), way, force));
       lasting.back().overlap = grains_.radius[i] + (is_wall(j) ? 0 : grains_.radius[j]) - norm(way);
     }
@@ -394,7 +402,7 @@ void EventEngine<D>::transfer(Archive& archive, Self& self) {
     archive(self.bursts_[i].begin, self.bursts_[i].collisions);
   }
   archive(self.start_place_, self.meetings_, self.touches_, self.account_.start, self.account_.normal_loss,
-          self.account_.shear_loss, self.now_, self.step_);
+          self.account_.shear_loss, self.account_.wall_work, self.now_, self.step_);
 }
 
 template <int D>

@@ -5,17 +5,15 @@
 #include "core/engine.hpp"
 #include "core/world.hpp"
 #include "engines/event/cells.hpp"
-#include "engines/event/meetings.hpp"
 #include "engines/event/event_queue.hpp"
-#include "laws/walton.hpp"
+#include "engines/hard/hard_contact.hpp"
+#include "engines/hard/meetings.hpp"
 
 namespace chute::event {
 
-/// What happens when two grains collide.
-struct HardContact {
-  laws::Restitution restitution;  ///< e_n
-  laws::Walton tangential;        ///< μ and β
-};
+using hard::HardContact;
+using hard::Meeting;
+using hard::Meetings;
 
 /// What an event-driven run needs besides its grains.
 template <int D>
@@ -122,12 +120,14 @@ class EventEngine final : public Engine {
   std::vector<Candidate> candidates_;  // scratch of look()
 
   double contact_with(std::size_t i, const Candidate& candidate, double limit);
-  double contact_with_wall(std::size_t i, std::size_t wall) const;
+  double contact_with_wall(std::size_t i, std::size_t wall, double limit) const;
   /// Can a moving grain collide with j?
   bool feels(std::size_t j) const { return !grains_.independent || j >= grains_.moving; }
   bool is_wall(std::size_t partner) const { return partner >= grains_.size(); }
-  Vec<D> way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to) const;
-  Contact told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way, const Vec<D>& force) const;
+  const Wall<D>& wall_of(std::size_t partner) const { return setup_.walls[partner - grains_.size()]; }
+  Vec<D> way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to, double t) const;
+  Contact told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way,
+               const Vec<D>& force) const;
   void look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely);
   void plan(std::size_t i);
   void lay_out();
@@ -135,9 +135,9 @@ class EventEngine final : public Engine {
   void note_touch(std::size_t i, std::size_t j, const Vec<D>& n, const Meeting* train);
   void check_collapse(std::size_t i);
   void show();
-  laws::Collider<D> collider(std::size_t i) const;
-  laws::Collision<D> exchange(const Vec<D>& n, const Meeting* train, laws::Collider<D>& a,
-                              laws::Collider<D>& b);
+  laws::Collider<D> collider(std::size_t i, const Vec<D>& n) const;
+  laws::Collision<D> exchange(const Vec<D>& n, const HardContact& contact, const Meeting* train,
+                              laws::Collider<D>& a, laws::Collider<D>& b);
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);

@@ -26,7 +26,14 @@ std::unique_ptr<Engine> made(World<D> world, const EventMethod& method, const en
 }  // namespace
 
 Offers EventMethod::offers() const {
-  return {.contacts = true, .collisions = true, .impacts = true, .independent = true, .walls = true};
+  return {.contacts = true,
+          .collisions = true,
+          .impacts = true,
+          .independent = true,
+          .walls = true,
+          .wall_shapes = true,
+          .wall_surfaces = true,
+          .wall_sticking = true};
 }
 
 std::vector<Fact> EventMethod::facts(const engines::Setting& s) const {

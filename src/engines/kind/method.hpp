@@ -34,7 +34,9 @@ struct Setting {
   double widest_spacing = 1;
   std::int64_t grains = 1;
   bool independent = false, rotation = true;
-  double launch_velocity = 0;  ///< mean v_x at the start
+  double launch_velocity = 0;              ///< mean v_x at the start
+  double fastest = 0;                      ///< how fast the fastest grain is at the start, about
+  std::vector<WallSurface> wall_surfaces;  ///< of [[wall]], in order: what is their own
 
   laws::Pair reference() const { return pairs.front().pair; }
   const laws::NamedPair& shortest() const { return stiffest ? *stiffest : pairs.front(); }

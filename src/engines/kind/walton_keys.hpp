@@ -20,7 +20,8 @@ struct WaltonKeys {
   /// How finely a run can be stopped; the motion does not depend on it.
   template <class Archive>
   void describe_tick(Archive& a) {
-    a.value("steps_per_contact", steps_per_contact, at_least(5), "instants to stop at in t_n of [contact] (50)");
+    a.value("steps_per_contact", steps_per_contact, at_least(5),
+            "instants to stop at in t_n of [contact] (50)");
     a.value("time_step", time_step, positive, "time between instants to stop at, instead");
     // What only soft grains use is understood: a scene changes its method with one key.
     a.ignored("integrator");
@@ -32,7 +33,9 @@ struct WaltonKeys {
     const double t_n = s.contact.impact(s.reference()).contact_time;
     return step_dividing(s.between_outputs, t_n / steps_per_contact.value_or(usual_steps));
   }
-  double e_n(const Setting& s) const { return restitution.value_or(s.contact.impact(s.reference()).restitution); }
+  double e_n(const Setting& s) const {
+    return restitution.value_or(s.contact.impact(s.reference()).restitution);
+  }
   laws::Walton walton(const Setting& s) const {
     auto shear = s.contact.laws(s.reference()).shear;
     const double* mu = laws::friction(shear);

@@ -6,10 +6,10 @@
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
 #include "core/team.hpp"
-#include "laws/list.hpp"
-#include "search/coarse_places.hpp"
 #include "engines/soft/contact_memory.hpp"
 #include "engines/soft/contacts.hpp"
+#include "laws/list.hpp"
+#include "search/coarse_places.hpp"
 
 /// The loops of ContactStages over pairs and contacts.
 namespace chute::soft {

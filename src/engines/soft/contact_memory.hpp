@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "laws/list.hpp"
 #include "engines/soft/contacts.hpp"
+#include "laws/list.hpp"
 
 namespace chute::soft {
 

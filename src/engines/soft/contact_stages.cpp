@@ -130,8 +130,9 @@ void Contacts<D>::reserve(std::size_t most) {
 }
 
 template <int D>
-ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa, SlipRule rule)
-    : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), wall_memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
+ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa,
+                                SlipRule rule)
+    : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
 
 /// Writes the pairs of `range` that touch to `pair`, and tells how many they are. In pieces, whose hits stay
 /// in the nearest cache.
@@ -225,8 +226,8 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, std::sp
   pad(contacts);
   const Part all{0, contacts.count};
   geometry(grains, all, contacts);
-  normal_forces(all, contacts, 0, memory_);
-  shear_forces(all, contacts, 0, memory_);
+  normal_forces(all, contacts, 0);
+  shear_forces(all, contacts, 0);
 }
 
 template <int D>
@@ -246,8 +247,8 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
     geometry(grains, range, contacts);
   };
   const auto laws = [&](Part range) {
-    normal_forces(range, contacts, duration, memory_);
-    shear_forces(range, contacts, duration, memory_);
+    normal_forces(range, contacts, duration);
+    shear_forces(range, contacts, duration);
   };
   if (!memory_.needed()) {
     team.split(contacts.count, [&](Part range, std::size_t) {
@@ -263,7 +264,7 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
 }
 
 template <int D>
-void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const {
+void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double duration) {
   const double inverse_duration = duration > 0 ? 1 / duration : 0;
   std::visit(
       [&]<class Law>(const Law& law) {
@@ -273,7 +274,7 @@ void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double d
         if constexpr (laws::NormalWithMemory<Law>) {
           std::array<double*, static_cast<std::size_t>(Law::memory)> columns;
           for (int k = 0; k < Law::memory; ++k)
-            columns[static_cast<std::size_t>(k)] = memory.normal_column(k);
+            columns[static_cast<std::size_t>(k)] = memory_.normal_column(k);
           remembering_normal(law, columns, inverse_duration, xi, dxi, m, R, range, force, loss,
                              contacts.stored.data());
         } else {
@@ -286,12 +287,12 @@ void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double d
 }
 
 template <int D>
-void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const {
+void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double duration) {
   const std::array<Array, turns<D>>& slip = contacts.slip;
   std::visit(
       [&]<class Law>(const Law& law) {
         if constexpr (laws::ShearWithMemory<Law>)
-          remembering_shear<Law, D>(law, memory, duration, range, contacts);
+          remembering_shear<Law, D>(law, memory_, duration, range, contacts);
         else
           run_kernel(isa_,
                      ShearKernel<Law, turns<D>>{law, pointers(slip), contacts.normal_force.data(),
@@ -302,19 +303,19 @@ void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double du
 }
 
 template <int D>
-void ContactStages<D>::evaluate_walls(const Grains<D>& grains, Contacts<D>& contacts, double duration) {
+void ContactStages<D>::evaluate_found(const Grains<D>& grains, Contacts<D>& contacts, double duration) {
   pad(contacts);
   const Part all{0, contacts.count};
   if (memory_.needed()) {
-    wall_memory_.carry(grains, contacts, duration);
+    memory_.carry(grains, contacts, duration);
     std::fill_n(contacts.stored.begin(), contacts.count, 0.0);
   }
-  normal_forces(all, contacts, duration, wall_memory_);
-  shear_forces(all, contacts, duration, wall_memory_);
+  normal_forces(all, contacts, duration);
+  shear_forces(all, contacts, duration);
 }
 
 template <int D>
-void ContactStages<D>::apply_walls(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
+void ContactStages<D>::apply_first(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
                                    GrainSums<D>& sums) const {
   const Adder<D> add(contacts, grains, sums);
   for (std::size_t c = 0; c < contacts.count; ++c) add.forces(c, true, false);

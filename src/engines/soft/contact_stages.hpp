@@ -6,10 +6,10 @@
 #include "core/domain.hpp"
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
-#include "laws/list.hpp"
-#include "search/neighbour_list.hpp"
 #include "engines/soft/contact_memory.hpp"
 #include "engines/soft/contacts.hpp"
+#include "laws/list.hpp"
+#include "search/neighbour_list.hpp"
 
 namespace chute::soft {
 
@@ -42,11 +42,11 @@ class ContactStages {
   void evaluate(const search::Candidates<D>& candidates, std::span<const Part> pairs, const Grains<D>& grains,
                 Contacts<D>& contacts, Touching& touching);
 
-  /// The same for contacts with walls, whose geometry is there already (WallContacts). They have a memory of their
-  /// own.
-  void evaluate_walls(const Grains<D>& grains, Contacts<D>& contacts, double duration);
-  /// Adds what they do to each grain.
-  void apply_walls(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums) const;
+  /// The same for contacts whose geometry is there already, as that of contacts with walls is (WallContacts).
+  void evaluate_found(const Grains<D>& grains, Contacts<D>& contacts, double duration);
+  /// Adds what they do to the first grain of each.
+  void apply_first(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
+                   GrainSums<D>& sums) const;
 
   /// Adds what the contacts do to each grain, in their order, over `duration`.
   void apply(const Contacts<D>& contacts, const Grains<D>& grains, double duration, GrainSums<D>& sums,
@@ -64,15 +64,13 @@ class ContactStages {
 
   const ContactMemory<D>& memory() const { return memory_; }
   ContactMemory<D>& memory() { return memory_; }
-  const ContactMemory<D>& wall_memory() const { return wall_memory_; }
-  ContactMemory<D>& wall_memory() { return wall_memory_; }
   double deepest() const { return deepest_; }
 
  private:
   Domain<D> domain_;
   laws::ContactLaws laws_;
   Isa isa_;
-  ContactMemory<D> memory_, wall_memory_;
+  ContactMemory<D> memory_;
   bool needs_radius_;
   double deepest_ = std::numeric_limits<double>::infinity();
   Touching touching_;
@@ -84,8 +82,8 @@ class ContactStages {
                       std::int64_t* hit, std::int32_t* pair) const;
   void name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts, const Team& team) const;
   void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
-  void normal_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const;
-  void shear_forces(Part range, Contacts<D>& contacts, double duration, ContactMemory<D>& memory) const;
+  void normal_forces(Part range, Contacts<D>& contacts, double duration);
+  void shear_forces(Part range, Contacts<D>& contacts, double duration);
 };
 
 }  // namespace chute::soft

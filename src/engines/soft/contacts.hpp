@@ -33,6 +33,21 @@ struct Contacts {
   void reserve(std::size_t most);
 };
 
+/// The force of a contact on its second grain.
+template <int D>
+Vec<D> force_on_second(const Contacts<D>& contacts, std::size_t c) {
+  Vec<D> n;
+  for (int k = 0; k < D; ++k) n[k] = contacts.normal[k][c];
+  Vec<D> force = contacts.normal_force[c] * n;
+  if constexpr (D == 2) {
+    force[0] += contacts.shear_force[0][c] * n[1];
+    force[1] -= contacts.shear_force[0][c] * n[0];
+  } else {
+    for (int k = 0; k < 3; ++k) force[k] += contacts.shear_force[k][c];
+  }
+  return force;
+}
+
 /// What contacts come to for each grain: force and torque on it now, and the energy that was taken since the
 /// start by the contacts in which it comes first. Losses are kept by grain so that their sums depend neither
 /// on who summed them nor in which order grains came by.

@@ -27,6 +27,8 @@ class Integrator {
   Integrator(Scheme scheme, double time_step, const Vec<D>& gravity, const Domain<D>& domain,
              Isa isa = best_isa());
 
+  /// From the next correction on.
+  void set_gravity(const Vec<D>& gravity) { gravity_ = gravity; }
   /// Takes the accelerations of the start from the forces there.
   void start(Grains<D>& grains, const GrainSums<D>& sums);
   /// A prediction leaves the forces and torques on the moving grains at 0, for those of the new step to be

@@ -31,7 +31,8 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
       stages_(setup.domain, laws_for(setup.laws, setup.time_step), setup.isa,
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
-      walls_(setup.walls),
+      walls_(setup.surroundings(), setup.laws, setup.wall_laws,
+             {setup.isa, setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint}),
       touches_(grains_.moving, setup.contact_time),
       team_(std::make_unique<Team>(setup.threads)),
       tiles_(std::make_unique<TimeTiles<D>>(*strips_, setup.many.grains_per_tile)) {
@@ -56,14 +57,25 @@ void SoftEngine<D>::advance(std::int64_t step) {
     ++step_;
     forces(setup_.time_step);
     account_.shear_loss += stages_.memory().released();
-    if (walls_.any()) account_.shear_loss += stages_.wall_memory().released();
-    if (contacts_.deep || wall_contacts_.deep) check_overlaps();
+    account_.shear_loss += walls_.released();
+    account_.wall_work += walls_.work();
+    if (setup_.tilt) tilt();
+    if (contacts_.deep || walls_.deep()) check_overlaps();
     if (collecting_) find_impacts();
     if (step_ == step) break;
     integrator_.correct_and_predict(grains_, sums_, *team_);
   }
   integrator_.correct(grains_, sums_, *team_);
   check_floor();
+}
+
+/// Gravity as it is now, and its work in this step.
+template <int D>
+void SoftEngine<D>::tilt() {
+  const Vec<D> g = setup_.gravity_at(time());
+  integrator_.set_gravity(g);
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    account_.gravity_work += setup_.time_step * grains_.mass[i] * dot(g, grains_.speed(i));
 }
 
 template <int D>
@@ -81,10 +93,7 @@ void SoftEngine<D>::forces(double duration) {
   stages_.evaluate(candidates(), grains_, contacts_, duration, *team_);
   sums_.clear({grains_.moving, grains_.size()});
   stages_.apply(contacts_, grains_, duration, sums_, *team_);
-  if (!walls_.any()) return;
-  walls_.find(grains_, stages_.deepest(), wall_contacts_);
-  stages_.evaluate_walls(grains_, wall_contacts_, duration);
-  stages_.apply_walls(wall_contacts_, grains_, duration, sums_);
+  walls_.evaluate(grains_, time(), duration, stages_.deepest(), sums_);
 }
 
 /// What remembers grains by their ids from step to step does not let them be sorted.
@@ -97,10 +106,13 @@ bool SoftEngine<D>::sorts() const {
 /// be undone has cost its steps for nothing; where that happens again and again, single steps follow for ever longer.
 template <int D>
 bool SoftEngine<D>::advance_in_tiles(std::int64_t step) {
-  constexpr std::int64_t first_pause = 64, longest_pause = 4096;  // steps: a block's, and some hundred times that
+  constexpr std::int64_t first_pause = 64,
+                         longest_pause = 4096;  // steps: a block's, and some hundred times that
   const auto& many = setup_.many;
   const bool pays = team_->size() > 1 || grains_.moving > 2 * many.grains_per_tile;
-  if (!many.tiles || !pays || walls_.any() || order_.empty() || step_ < no_tiles_until_ || !sorts()) return false;
+  if (!many.tiles || !pays || walls_.any() || setup_.tilt || order_.empty() || step_ < no_tiles_until_ ||
+      !sorts())
+    return false;
   const StepParts<D> parts{grains_, sums_, list_, stages_, integrator_, *team_, setup_.time_step};
   const std::int64_t unsorted = many.sort_every - step_ % many.sort_every;
   candidates();  // up to date
@@ -158,9 +170,11 @@ void SoftEngine<D>::check_overlaps() const {
     const double depth =
         contacts.overlap[c] / (wall ? grains_.radius[i] : std::min(grains_.radius[i], grains_.radius[j]));
     if (depth > setup_.deepest_overlap)
-      leave_physics(i, fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): stiffness is too low for "
-                                   "these velocities",
-                                   wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap));
+      leave_physics(
+          i,
+          fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): stiffness is too low for "
+                      "these velocities",
+                      wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap));
   });
 }
 
@@ -168,8 +182,11 @@ void SoftEngine<D>::check_overlaps() const {
 template <int D>
 template <class Each>
 void SoftEngine<D>::for_contacts(const Each& each) const {
-  for (const auto* contacts : {&contacts_, &wall_contacts_})
-    for (std::size_t c = 0; c < contacts->count; ++c) each(*contacts, c);
+  const auto all = [&](const Contacts<D>& contacts) {
+    for (std::size_t c = 0; c < contacts.count; ++c) each(contacts, c);
+  };
+  all(contacts_);
+  walls_.for_lists(all);
 }
 
 template <int D>
@@ -205,7 +222,9 @@ Impact SoftEngine<D>::impact(std::size_t i, std::size_t j) const {
   std::size_t grain = i, bead = j;
   Vec<D> n, v = grains_.speed(i), surface = grains_.place(i);  // n from bead to grain
   if (j >= grains_.size()) {
-    n = setup_.walls[j - grains_.size()].normal;
+    const auto touch = walls_.touch(j - grains_.size(), surface, time());
+    n = touch.nearest.normal;
+    v = v - touch.velocity;
     surface = surface - grains_.radius[i] * n;
   } else {
     const Vec<D> way = setup_.domain.way(grains_.place(i), grains_.place(j));
@@ -238,8 +257,10 @@ void SoftEngine<D>::collect_impacts(bool on) {
 template <int D>
 void SoftEngine<D>::remember_touching() {
   touched_.clear();
-  for_contacts([&](const Contacts<D>& contacts, std::size_t c) { touched_.emplace_back(contacts.i[c], contacts.j[c]); });
-  if (wall_contacts_.count > 0) std::sort(touched_.begin(), touched_.end());
+  for_contacts([&](const Contacts<D>& contacts, std::size_t c) {
+    touched_.emplace_back(contacts.i[c], contacts.j[c]);
+  });
+  if (walls_.count() > 0) std::sort(touched_.begin(), touched_.end());
 }
 
 template <int D>
@@ -292,8 +313,8 @@ EnergyAccount SoftEngine<D>::energy() const {
     e.normal_loss += sums_.normal_loss[i];
     e.shear_loss += sums_.shear_loss[i];
   }
-  e.add_motion(grains(), setup_.gravity, start_place_);
-  e.elastic = stages_.elastic_energy(contacts_) + stages_.elastic_energy(wall_contacts_);
+  e.add_motion(grains(), setup_.tilt ? Vec<D>{} : setup_.gravity, start_place_);
+  e.elastic = stages_.elastic_energy(contacts_) + walls_.elastic_energy();
   return e;
 }
 
@@ -301,15 +322,8 @@ template <int D>
 Contact SoftEngine<D>::told(const Contacts<D>& contacts, std::size_t c) const {
   auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
   const bool wall = j >= grains_.size();
-  Vec<D> n, force;
+  Vec<D> n, force = force_on_second(contacts, c);
   for (int k = 0; k < D; ++k) n[k] = contacts.normal[k][c];
-  force = contacts.normal_force[c] * n;
-  if constexpr (D == 2) {
-    force[0] += contacts.shear_force[0][c] * n[1];
-    force[1] -= contacts.shear_force[0][c] * n[0];
-  } else {
-    for (int k = 0; k < 3; ++k) force[k] += contacts.shear_force[k][c];
-  }
   Contact contact;
   contact.overlap = contacts.overlap[c];
   contact.a = static_cast<std::int64_t>(id_at(i));
@@ -319,7 +333,8 @@ Contact SoftEngine<D>::told(const Contacts<D>& contacts, std::size_t c) const {
     n = -1.0 * n, force = -1.0 * force;
   }
   const double arm = grains_.radius[i] - 0.5 * contact.overlap;
-  const double length = wall ? grains_.radius[i] - contact.overlap : grains_.radius[i] + grains_.radius[j] - contact.overlap;
+  const double length =
+      wall ? grains_.radius[i] - contact.overlap : grains_.radius[i] + grains_.radius[j] - contact.overlap;
   contact.point = as_file_vector(grains_.place(i) + arm * n);
   contact.branch = as_file_vector(length * n);
   set_force(contact, n, force);
@@ -329,7 +344,7 @@ Contact SoftEngine<D>::told(const Contacts<D>& contacts, std::size_t c) const {
 template <int D>
 std::vector<Contact> SoftEngine<D>::contacts() const {
   std::vector<Contact> told_of;
-  told_of.reserve(contacts_.count + wall_contacts_.count);
+  told_of.reserve(contacts_.count + walls_.count());
   for_contacts([&](const Contacts<D>& contacts, std::size_t c) { told_of.push_back(told(contacts, c)); });
   if (!order_.empty())
     std::sort(told_of.begin(), told_of.end(),
@@ -342,8 +357,9 @@ template <int D>
 template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
   archive(self.order_, self.grains_, self.integrator_.derivatives(), self.start_place_, self.account_.start,
-          self.account_.shear_loss, self.sums_.normal_loss, self.sums_.shear_loss, self.step_, self.collecting_,
-          self.touched_, self.touches_, self.stages_.memory(), self.stages_.wall_memory());
+          self.account_.shear_loss, self.account_.wall_work, self.account_.gravity_work,
+          self.sums_.normal_loss, self.sums_.shear_loss, self.step_, self.collecting_, self.touched_,
+          self.touches_, self.stages_.memory(), self.walls_);
 }
 
 template <int D>
@@ -364,11 +380,12 @@ void SoftEngine<D>::restore(std::istream& in) {
   list_.forget();
   // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember
   // is from the forces of the last step, at the predicted places; it must not see the corrected ones.
-  const auto remembered = stages_.memory(), remembered_of_walls = stages_.wall_memory();
+  const auto remembered = stages_.memory();
+  const auto remembered_of_walls = walls_.memories();
   sums_.clear({0, grains_.moving});
   forces(0);
   stages_.memory() = remembered;
-  stages_.wall_memory() = remembered_of_walls;
+  walls_.remember(remembered_of_walls);
 }
 
 template class SoftEngine<2>;

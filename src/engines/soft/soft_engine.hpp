@@ -3,12 +3,12 @@
 
 #include "core/engine.hpp"
 #include "core/world.hpp"
-#include "search/neighbour_list.hpp"
 #include "engines/soft/contact_stages.hpp"
 #include "engines/soft/integrator.hpp"
 #include "engines/soft/strips.hpp"
 #include "engines/soft/time_tiles.hpp"
 #include "engines/soft/wall_contacts.hpp"
+#include "search/neighbour_list.hpp"
 
 namespace chute::soft {
 
@@ -25,11 +25,12 @@ struct ManyGrains {
 template <int D>
 struct SoftSetup : Surroundings<D> {
   laws::ContactLaws laws{};
+  std::vector<std::optional<laws::ContactLaws>> wall_laws{};  ///< of the walls that have their own
   Scheme scheme = Scheme::gear5;
   double time_step = 0;
   typename search::NeighbourList<D>::Skins skins{};
   double deepest_overlap = 0.25;  ///< of the smallest radius; beyond it the run has left physics
-  double contact_time = 0;  ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
+  double contact_time = 0;        ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
   search::Method search = search::Method::cells;
   Isa isa = best_isa();
   int threads = 1;  ///< results do not depend on it
@@ -78,7 +79,7 @@ class SoftEngine final : public Engine {
   ContactStages<D> stages_;
   Integrator<D> integrator_;
   WallContacts<D> walls_;
-  Contacts<D> contacts_, wall_contacts_;
+  Contacts<D> contacts_;
   GrainSums<D> sums_;
   std::array<Array, D> start_place_;  // of the moving grains, for gravity's work
   EnergyAccount account_;             // start, and the losses that are no grain's; the rest when asked for
@@ -86,7 +87,8 @@ class SoftEngine final : public Engine {
   bool collecting_ = false;
   std::vector<Impact> impacts_;
   std::vector<Parting> partings_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> touched_, touched_before_;  // contacts of the last two steps
+  std::vector<std::pair<std::int32_t, std::int32_t>> touched_,
+      touched_before_;  // contacts of the last two steps
   TouchLog touches_;
   std::unique_ptr<Team> team_;
   std::vector<std::int32_t> order_;  // id of the grain at each place; empty: as they are
@@ -94,7 +96,7 @@ class SoftEngine final : public Engine {
   std::unique_ptr<TimeTiles<D>> tiles_;
   std::int64_t tiled_steps_ = 0, undone_ = 0;
   std::int64_t tile_pause_ = 0, no_tiles_until_ = 0;  // after blocks that had to be undone
-  mutable Grains<D> by_id_;  // for who looks, if they are kept in another order
+  mutable Grains<D> by_id_;                           // for who looks, if they are kept in another order
   mutable std::array<Array, D> force_by_id_;
 
   search::Candidates<D> candidates();
@@ -105,6 +107,7 @@ class SoftEngine final : public Engine {
   void reorder(std::span<const std::int32_t> from);
   void back_to_ids();
   std::vector<std::int32_t> places() const;
+  void tilt();
   void check_overlaps() const;
   void find_impacts();
   void remember_touching();

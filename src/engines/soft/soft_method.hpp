@@ -9,7 +9,8 @@ namespace chute::soft {
 /// `engine.method = "soft"`.
 class SoftMethod final : public Described<engines::Method, SoftMethod> {
  public:
-  static constexpr std::string_view word = "soft", text = "time-step driven molecular dynamics of soft grains (2.1.1)";
+  static constexpr std::string_view word = "soft",
+                                    text = "time-step driven molecular dynamics of soft grains (2.1.1)";
   /// A further thread pays for so many moving grains.
   static constexpr std::int64_t grains_per_thread = 2000;
   Scheme integrator = Scheme::gear5;
@@ -21,12 +22,14 @@ class SoftMethod final : public Described<engines::Method, SoftMethod> {
   template <class Archive>
   void describe(Archive& a) {
     a.choice("integrator", integrator, integrators, "(2.11) to (2.14), or velocity Verlet");
-    a.value("steps_per_contact", steps_per_contact, at_least(5), "time steps in the shortest contact time t_n");
+    a.value("steps_per_contact", steps_per_contact, at_least(5),
+            "time steps in the shortest contact time t_n");
     a.value("time_step", time_step, positive, "instead of steps_per_contact");
     a.value("deepest_overlap", deepest_overlap, Range{0, 1, true, false},
             "of the smaller radius; beyond it the run has left physics and stops");
   }
   Offers offers() const override;
+  std::optional<Refusal> refusal(const engines::Setting& setting) const override;
   double step(const engines::Setting& setting) const override;
   std::vector<Fact> facts(const engines::Setting& setting) const override;
   double seconds_per_step(const engines::Setting& setting) const override;

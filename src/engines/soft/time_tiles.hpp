@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "search/neighbour_list.hpp"
 #include "engines/soft/contact_stages.hpp"
 #include "engines/soft/integrator.hpp"
 #include "engines/soft/strips.hpp"
+#include "search/neighbour_list.hpp"
 
 namespace chute::soft {
 

@@ -1,23 +1,46 @@
 #include "engines/soft/wall_contacts.hpp"
 
+#include <algorithm>
+
 namespace chute::soft {
 
 template <int D>
-void WallContacts<D>::find(const Grains<D>& grains, double deepest, Contacts<D>& contacts) const {
+WallContacts<D>::WallContacts(const Surroundings<D>& around, const laws::ContactLaws& laws,
+                              const std::vector<std::optional<laws::ContactLaws>>& own, Kernels kernels)
+    : domain_(around.domain), walls_(around.walls) {
+  const auto add = [&](const laws::ContactLaws& theirs) -> Group& {
+    return groups_.emplace_back(Group{{}, ContactStages<D>(domain_, theirs, kernels.isa, kernels.rule)});
+  };
+  if (any()) add(laws);
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    (w < own.size() && own[w] ? add(*own[w]) : groups_.front()).walls.push_back(w);
+}
+
+template <int D>
+WallContacts<D>::Touch WallContacts<D>::touch(std::size_t wall, const Vec<D>& place, double time) const {
+  const auto nearest = walls_[wall].nearest(place, time, domain_);
+  return {nearest, walls_[wall].surface_velocity(nearest, time)};
+}
+
+template <int D>
+void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest, Group& group) const {
+  Contacts<D>& contacts = group.contacts;
   contacts.count = 0;
   contacts.deep = 0;
   for (std::size_t i = 0; i < grains.moving; ++i) {
     const Vec<D> place = grains.place(i);
-    for (std::size_t w = 0; w < walls_.size(); ++w) {
-      const double R = grains.radius[i], overlap = R - walls_[w].height(place);
+    for (const std::size_t w : group.walls) {
+      const auto nearest = walls_[w].nearest(place, time, domain_);
+      const double R = grains.radius[i], overlap = R - nearest.height;
       if (!(overlap > 0)) continue;
       contacts.reserve(contacts.count + 1);
       const std::size_t c = contacts.count++;
       contacts.i[c] = static_cast<std::int32_t>(i);
       contacts.j[c] = static_cast<std::int32_t>(grains.size() + w);
       contacts.m_eff[c] = 1 / grains.inverse_mass[i];
-      contacts.r_eff[c] = R;
-      const Vec<D> n = -1.0 * walls_[w].normal, dv = -1.0 * grains.speed(i);
+      contacts.r_eff[c] = walls_[w].effective_radius(R);
+      const Vec<D> n = -1.0 * nearest.normal,
+                   dv = walls_[w].surface_velocity(nearest, time) - grains.speed(i);
       const double v_n = dot(dv, n);
       for (int k = 0; k < D; ++k) contacts.normal[k][c] = n[k];
       if constexpr (D == 2) {
@@ -31,6 +54,65 @@ void WallContacts<D>::find(const Grains<D>& grains, double deepest, Contacts<D>&
       contacts.deep |= overlap > deepest;
     }
   }
+}
+
+template <int D>
+void WallContacts<D>::evaluate(const Grains<D>& grains, double time, double duration, double deepest,
+                               GrainSums<D>& sums) {
+  work_ = 0;
+  for (auto& group : groups_) {
+    find(grains, time, deepest, group);
+    group.stages.evaluate_found(grains, group.contacts, duration);
+    group.stages.apply_first(group.contacts, grains, duration, sums);
+    if (duration > 0) work_ += duration * power(grains, time, group.contacts);
+  }
+}
+
+/// Of the walls on the grains.
+template <int D>
+double WallContacts<D>::power(const Grains<D>& grains, double time, const Contacts<D>& contacts) const {
+  double sum = 0;
+  for (std::size_t c = 0; c < contacts.count; ++c) {
+    const auto w = static_cast<std::size_t>(contacts.j[c]) - grains.size();
+    if (!walls_[w].moves()) continue;
+    Nearest<D> nearest;
+    for (int k = 0; k < D; ++k) nearest.normal[k] = -contacts.normal[k][c];
+    sum -= dot(force_on_second(contacts, c), walls_[w].surface_velocity(nearest, time));
+  }
+  return sum;
+}
+
+template <int D>
+bool WallContacts<D>::deep() const {
+  return std::ranges::any_of(groups_, [](const Group& group) { return group.contacts.deep != 0; });
+}
+template <int D>
+double WallContacts<D>::released() const {
+  double sum = 0;
+  for (const auto& group : groups_) sum += group.stages.memory().released();
+  return sum;
+}
+template <int D>
+double WallContacts<D>::elastic_energy() const {
+  double sum = 0;
+  for (const auto& group : groups_) sum += group.stages.elastic_energy(group.contacts);
+  return sum;
+}
+template <int D>
+std::size_t WallContacts<D>::count() const {
+  std::size_t sum = 0;
+  for (const auto& group : groups_) sum += group.contacts.count;
+  return sum;
+}
+template <int D>
+std::vector<ContactMemory<D>> WallContacts<D>::memories() const {
+  std::vector<ContactMemory<D>> all;
+  for (const auto& group : groups_) all.push_back(group.stages.memory());
+  return all;
+}
+template <int D>
+void WallContacts<D>::remember(const std::vector<ContactMemory<D>>& memories) {
+  for (std::size_t k = 0; k < groups_.size(); ++k) groups_[k].stages.memory() = memories[k];
 }
 
 template class WallContacts<2>;

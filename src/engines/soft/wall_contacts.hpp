@@ -1,27 +1,77 @@
 #pragma once
+#include <optional>
 #include <vector>
 
-#include "core/domain.hpp"
-#include "core/wall.hpp"
-#include "engines/soft/contacts.hpp"
+#include "core/world.hpp"
+#include "engines/soft/contact_stages.hpp"
 
 namespace chute::soft {
 
-/// Finds which grains touch the walls, and how: frame, overlap and relative motion as between two grains (2.3), (2.4),
-/// (2.6), (2.7), with a partner that is infinitely large and heavy. A contact's j is the number of grains plus that of
-/// the wall, so that contacts stay ordered by (i, j).
+/// Contacts of grains with walls: how they touch, with frame, overlap and relative motion as between two grains (2.3),
+/// (2.4), (2.6), (2.7), the partner being infinitely heavy; what the laws make of it; and the work of walls that move. A
+/// contact's j is the number of grains plus that of the wall.
+///
+/// Walls with friction or restitution of their own have laws of their own, and so a list of contacts each; all others
+/// share the first. In each list contacts are ordered by (i, j).
 template <int D>
 class WallContacts {
  public:
-  explicit WallContacts(const std::vector<Wall<D>>& walls) : walls_(walls) {}
-  bool any() const { return !walls_.empty(); }
-  std::size_t count() const { return walls_.size(); }
+  /// What is behind the choice of laws.
+  struct Kernels {
+    Isa isa;
+    SlipRule rule;
+  };
+  /// `own` has the laws of each wall that has its own.
+  WallContacts(const Surroundings<D>& around, const laws::ContactLaws& laws,
+               const std::vector<std::optional<laws::ContactLaws>>& own, Kernels kernels);
 
-  /// Fills all that laws need to know of the contacts, i by i.
-  void find(const Grains<D>& grains, double deepest, Contacts<D>& contacts) const;
+  bool any() const { return !walls_.empty(); }
+
+  /// Finds all contacts at `time`, and adds what they do over `duration`. `deepest` is the overlap to tell of.
+  void evaluate(const Grains<D>& grains, double time, double duration, double deepest, GrainSums<D>& sums);
+
+  /// Of the latest evaluation: is an overlap deeper?
+  bool deep() const;
+  /// Work that moving walls did on the grains in it.
+  double work() const { return work_; }
+  /// What contacts that ended in it still have to account for (ContactMemory).
+  double released() const;
+  double elastic_energy() const;
+  std::size_t count() const;
+
+  /// How a wall is touched from a place, and the velocity of its surface there.
+  struct Touch {
+    Nearest<D> nearest;
+    Vec<D> velocity;
+  };
+  Touch touch(std::size_t wall, const Vec<D>& place, double time) const;
+
+  /// visit(contacts) for each list.
+  template <class Visit>
+  void for_lists(const Visit& visit) const {
+    for (const auto& group : groups_) visit(group.contacts);
+  }
+  /// What the contacts remember, for checkpoints.
+  std::vector<ContactMemory<D>> memories() const;
+  void remember(const std::vector<ContactMemory<D>>& memories);
+  template <class Archive>
+  void serialize(Archive& archive) {
+    for (auto& group : groups_) archive(group.stages.memory());
+  }
 
  private:
+  struct Group {
+    std::vector<std::size_t> walls;
+    ContactStages<D> stages;
+    Contacts<D> contacts{};
+  };
+  Domain<D> domain_;
   std::vector<Wall<D>> walls_;
+  std::vector<Group> groups_;
+  double work_ = 0;
+
+  void find(const Grains<D>& grains, double time, double deepest, Group& group) const;
+  double power(const Grains<D>& grains, double time, const Contacts<D>& contacts) const;
 };
 
 }  // namespace chute::soft

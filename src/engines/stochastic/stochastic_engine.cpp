@@ -18,7 +18,8 @@ double kinetic(double mass, const Vec<2>& v) { return 0.5 * mass * dot(v, v); }
 
 }  // namespace
 
-StochasticEngine::StochasticEngine(World<2> world, const StochasticModel& model, std::uint64_t seed, double tick)
+StochasticEngine::StochasticEngine(World<2> world, const StochasticModel& model, std::uint64_t seed,
+                                   double tick)
     : grains_(std::move(world.grains)),
       domain_(world.domain),
       model_(model),
@@ -40,9 +41,7 @@ StochasticEngine::StochasticEngine(World<2> world, const StochasticModel& model,
   show();
 }
 
-Vec<2> StochasticEngine::gravity() const {
-  return gravity_on_incline<2>(model_.gravity, model_.theta);
-}
+Vec<2> StochasticEngine::gravity() const { return gravity_on_incline<2>(model_.gravity, model_.theta); }
 
 void StochasticEngine::advance(std::int64_t step) {
   if (step <= step_) return;

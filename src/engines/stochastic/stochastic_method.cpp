@@ -10,7 +10,8 @@ Offers StochasticMethod::offers() const { return {.in_3d = false, .impacts = tru
 std::optional<Refusal> StochasticMethod::refusal(const engines::Setting& s) const {
   if (s.grains != 1 || s.bead_spacing == 0)
     return Refusal{"engine", "method = \"stochastic\" moves a single ball along a bed"};
-  if (!(s.launch_velocity > 0)) return Refusal{"grains", "the stochastic ball must start downhill: velocity > 0"};
+  if (!(s.launch_velocity > 0))
+    return Refusal{"grains", "the stochastic ball must start downhill: velocity > 0"};
   return {};
 }
 

@@ -7,7 +7,8 @@
 namespace chute::stochastic {
 
 /// `engine.method = "stochastic"`.
-class StochasticMethod final : public Described<engines::Method, StochasticMethod>, public engines::WaltonKeys {
+class StochasticMethod final : public Described<engines::Method, StochasticMethod>,
+                               public engines::WaltonKeys {
  public:
   static constexpr std::string_view word = "stochastic", text = "the stochastic model of one ball (4.1.3)";
   theory::Friction impact_friction = theory::Friction::published;

@@ -1,0 +1,144 @@
+#include "view/arrangement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+
+namespace chute::view {
+namespace {
+
+// All in em, the size of the type.
+constexpr double margin = 1.3;      // around everything
+constexpr double line = 1.55;       // the line of time above the scene, with the space to it
+constexpr double foot = 1.9;        // the scale bar below the scene, with the space to it
+constexpr double gap = 1.5;         // between the scene and what stands beside it
+constexpr double bar_width = 0.85;  // of the colours
+constexpr double label_gap = 0.5;   // colours to numbers
+constexpr double longest_bar = 20;
+constexpr double gravity_width = 4.4, gravity_height = 5.0;
+constexpr double plot_width = 17, plot_height = 10;  // at least, of a plot beside or below the scene
+constexpr double least_scene = 6;                    // its longer side, where a plot takes room
+
+}  // namespace
+
+double longest_scale(const plot::Rect& scene, double em) {
+  return std::clamp(0.2 * scene.width(), 3 * em, 9 * em);
+}
+
+namespace {
+
+struct Fit {
+  Arrangement places;
+  double size;  ///< width of the scene
+};
+
+Fit beside(Arrangement places, double width, double height, double aspect, double title, double labels) {
+  const double em = places.em;
+  const double panel = em * std::max(places.has_bar ? std::max(title, bar_width + label_gap + labels) : 0,
+                                     places.has_gravity ? gravity_width : 0);
+  const double space = panel > 0 ? gap * em : 0;
+  const double top = places.has_time || places.has_key ? line * em : 0, bottom = places.foot * em;
+  const double free_width = width - 2 * margin * em - space - panel,
+               free_height = height - 2 * margin * em - top - bottom;
+  const double w = std::max(1.0, std::min(free_width, free_height * aspect)), h = w / aspect;
+  const double left = (width - w - space - panel) / 2, above = (height - h - top - bottom) / 2 + top;
+  places.scene = {left, above, left + w, above + h};
+  places.time = {left, above - (line - 1) * em};
+  places.key = {left + w, places.time.y()};
+  places.scale = {left, above + h + 1.15 * em};
+
+  // the panel is as high as the scene if that is enough for a bar and the arrows
+  const double x = left + w + space;
+  const double least = em * ((places.has_bar ? 8.5 : 0) + (places.has_gravity ? gravity_height : 0));
+  const double extra = std::max(0.0, least - h) / 2;
+  const double panel_top = std::max(margin * em, above - extra);
+  const double panel_bottom = std::min(height - margin * em, above + h + extra);
+  places.gravity = {x, panel_bottom - gravity_height * em, x + gravity_width * em, panel_bottom};
+  places.title = {x, panel_top + 0.8 * em};
+  const double bar_top = panel_top + 1.75 * em;
+  const double bar_bottom = panel_bottom - (places.has_gravity ? gravity_height + 1.2 : 0.2) * em;
+  places.bar = {x, bar_top, x + bar_width * em, std::min(bar_bottom, bar_top + longest_bar * em)};
+  places.upright_bar = true;
+  return {places, places.bar.height() < 5 * em && places.has_bar ? 0.0 : w};
+}
+
+Fit below(Arrangement places, double width, double height, double aspect, double title, double labels) {
+  const double em = places.em;
+  const double top = places.has_time || places.has_key ? line * em : 0;
+  const double row = em * (places.has_gravity ? gravity_height + 0.6 : places.has_bar ? 3.4 : places.foot);
+  const double free_width = width - 2 * margin * em, free_height = height - 2 * margin * em - top - row;
+  const double w = std::max(1.0, std::min(free_width, free_height * aspect)), h = w / aspect;
+  const double left = (width - w) / 2, above = (height - h - top - row) / 2 + top;
+  places.scene = {left, above, left + w, above + h};
+  places.time = {left, above - (line - 1) * em};
+  places.key = {left + w, places.time.y()};
+  places.scale = {left, above + h + 1.25 * em};
+  places.gravity = {left + w - gravity_width * em, above + h + 0.6 * em, left + w,
+                    above + h + (0.6 + gravity_height) * em};
+  // between the scale bar with its label and the arrows: title, then colours
+  const double from = left + (places.has_scale ? longest_scale(places.scene, em) + 4.2 * em : 0),
+               to = left + w - em * (places.has_gravity ? gravity_width + 2 : 0);
+  const double length = std::min(to - from - em * (title + 0.9 + labels), 1.3 * longest_bar * em);
+  const double start = from + (to - from - length - em * (title + 0.9)) / 2;
+  const double y = above + h + 1.25 * em;
+  places.title = {start, y + 0.3 * em};
+  places.bar = {start + (title + 0.9) * em, y - bar_width / 2 * em, start + (title + 0.9) * em + length,
+                y + bar_width / 2 * em};
+  places.upright_bar = false;
+  return {places, length < 7 * em && places.has_bar ? 0.0 : w};
+}
+
+}  // namespace
+
+Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
+                    double label_width) {
+  const double width = style.width, height = style.height;
+  Arrangement places;
+  // readable at 400 x 300, quiet at 1920 x 1080
+  places.em = std::max(12.0, 0.0225 * std::sqrt(width * height));
+  if (!style.furniture) {
+    const double edge = 0.02 * std::min(width, height);
+    const double w = std::min(width - 2 * edge, (height - 2 * edge) * aspect), h = w / aspect;
+    places.scene = {(width - w) / 2, (height - h) / 2, (width + w) / 2, (height + h) / 2};
+    return places;
+  }
+  places.has_bar = !survey.field.is_none();
+  places.has_time = survey.has_times;
+  places.has_gravity = !survey.gravity.isZero(0);
+  places.has_scale = true;
+  places.has_key = style.arrows && survey.speed > 0;
+  // in space the scale bar is part of the scene, only its label may reach below
+  places.foot = survey.dimensions == 2 ? foot : 0.8;
+  const auto fit = [&](double room_width, double room_height) {
+    const auto side = beside(places, room_width, room_height, aspect, title_width, label_width);
+    const auto under = below(places, room_width, room_height, aspect, title_width, label_width);
+    return side.size >= under.size ? side : under;
+  };
+  if (survey.series.empty()) {
+    places = fit(width, height).places;
+  } else {
+    const double strip = std::max(plot_height * places.em, 0.24 * height),
+                 column = std::max(plot_width * places.em, 0.34 * width), edge = 0.5 * margin * places.em;
+    const auto above = fit(width, height - strip), left = fit(width - column, height);
+    places = above.size >= left.size ? above.places : left.places;
+    if (std::max(above.size, left.size) < least_scene * places.em * std::min(1.0, aspect))
+      throw InputError(fmt::format("a picture of {} x {} pixels is too small for a plot beside the grains",
+                                   style.width, style.height));
+    places.has_plot = true;
+    if (above.size >= left.size) {
+      places.plot = {edge, height - strip, width - edge, height - edge};
+    } else {
+      const double tall = std::min(height - 2 * edge, 0.8 * column), middle = places.scene.centre().y();
+      const double top = std::clamp(middle - tall / 2, edge, height - edge - tall);
+      places.plot = {width - column, top, width - edge, top + tall};
+    }
+  }
+  // beside the time, if there is room
+  places.has_key = places.has_key && places.scene.width() > 17 * places.em;
+  return places;
+}
+
+}  // namespace chute::view

@@ -1,0 +1,33 @@
+#pragma once
+#include "plot/geometry.hpp"
+#include "view/survey.hpp"
+
+namespace chute::view {
+
+/// Where everything stands in a frame, in pixels from the top left. The same in all frames of a run; nothing
+/// overlaps.
+struct Arrangement {
+  double em = 16;    ///< size of the type
+  plot::Rect scene;  ///< the grains
+  bool has_bar = false, has_gravity = false, has_scale = false, has_time = false, has_key = false,
+       has_plot = false;
+  double foot = 0;          ///< room below the scene, em
+  bool upright_bar = true;  ///< colour bar beside the scene; else below it
+  plot::Rect bar;           ///< the colours themselves
+  plot::Point title{0, 0};  ///< left end of the colour bar's title
+  plot::Point time{0, 0};   ///< left end of the time's line
+  plot::Point key{0, 0};    ///< right end of the line that explains the arrows, above the scene
+  plot::Point scale{0, 0};  ///< left end of the scale bar
+  plot::Rect plot;          ///< the plot of a time series, its texts included
+  plot::Rect gravity;       ///< the arrows that show where gravity points
+};
+
+/// `aspect` = width / height of what is to be seen. `title_width` and `label_width` in em: of the colour
+/// bar's texts. InputError if the picture is too small for the plot that is wanted.
+Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
+                    double label_width);
+
+/// The room for a scale bar below the scene, pixels; its label stands to the right of it.
+double longest_scale(const plot::Rect& scene, double em);
+
+}  // namespace chute::view
