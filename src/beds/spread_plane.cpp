@@ -14,7 +14,7 @@ using Place = std::array<double, 2>;
 /// Beads that are rolled in against a growing front, along x from an uneven edge at 0.
 class Front {
  public:
-  explicit Front(double width) : width_(width) {}
+  Front(double length, double width) : length_(length), width_(width) {}
 
   struct Bead {
     Place place;
@@ -24,45 +24,57 @@ class Front {
   /// The first beads lie at the edge, wherever there was room.
   bool lie(const Bead& bead) {
     if (!free(bead)) return false;
-    beads_.push_back(bead);
+    add(bead);
     return true;
   }
-  /// Rolls a bead into the gap that is nearest to the edge.
-  void roll(double room) {
+  /// Rolls a bead into the gap that is nearest to the edge. False if there is none left before the edge's own image.
+  bool roll(double room) {
     std::vector<Place> gaps;
-    const std::size_t first = rear();
-    for (std::size_t a = first; a < beads_.size(); ++a)
-      for (std::size_t b = a + 1; b < beads_.size(); ++b) resting(beads_[a], beads_[b], room, gaps);
+    for (std::size_t a = 0; a < recent_.size(); ++a)
+      for (std::size_t b = a + 1; b < recent_.size(); ++b)
+        resting(beads_[recent_[a]], beads_[recent_[b]], room, gaps);
     std::sort(gaps.begin(), gaps.end());
     for (const auto& gap : gaps)
-      if (free({gap, room})) {
-        beads_.push_back({gap, room});
-        return;
+      if (gap[0] > line_ - look_back * room && gap[0] < length_ && free({gap, room})) {
+        add({gap, room});
+        return true;
       }
-    beads_.push_back({{beads_.back().place[0] + beads_.back().room + room, beads_.back().place[1]}, room});
+    return false;
   }
   const std::vector<Bead>& beads() const { return beads_; }
 
  private:
-  double width_;
+  double length_, width_;
   std::vector<Bead> beads_;
+  double line_ = 0;                  // how far the farthest bead has come
+  std::vector<std::size_t> recent_;  // beads near that line: those behind lie among others
+
+  // Gaps are looked for so far behind the line, and beads remembered somewhat farther, or a gap at the rear would
+  // not know of beads behind it; in radii.
+  static constexpr double look_back = 6, remembered = 10;
 
   double across(double a, double b) const { return b - a - width_ * std::round((b - a) / width_); }
-  /// The first bead that can still be touched: gaps fill up in order, so that all is full some rows behind the last bead.
-  std::size_t rear() const {
-    constexpr double rows = 4;
-    const auto reach = 20 + static_cast<std::size_t>(rows * width_ / (2 * beads_.back().room));
-    return beads_.size() > reach ? beads_.size() - reach : 0;
+  void add(const Bead& bead) {
+    line_ = std::max(line_, bead.place[0]);
+    recent_.push_back(beads_.size());
+    beads_.push_back(bead);
+    std::erase_if(recent_,
+                  [&](std::size_t k) { return beads_[k].place[0] < line_ - remembered * bead.room; });
+  }
+  bool apart(const Bead& a, const Bead& b, double shift) const {
+    constexpr double rounding = 1e-9;
+    const double reach = (a.room + b.room) * (1 - rounding);
+    const double dx = a.place[0] - b.place[0] - shift, dy = across(b.place[1], a.place[1]);
+    return dx * dx + dy * dy >= reach * reach;
   }
   bool free(const Bead& bead) const {
-    constexpr double rounding = 1e-9;
-    for (std::size_t k = beads_.empty() ? 0 : rear(); k < beads_.size(); ++k) {
-      const double reach = (bead.room + beads_[k].room) * (1 - rounding);
-      const double dx = bead.place[0] - beads_[k].place[0];
-      if (std::abs(dx) >= reach) continue;
-      const double dy = across(beads_[k].place[1], bead.place[1]);
-      if (dx * dx + dy * dy < reach * reach) return false;
-    }
+    for (const auto k : recent_)
+      if (!apart(bead, beads_[k], 0)) return false;
+    // The image of the first rows lies behind the last.
+    constexpr double rows = 4;
+    if (bead.place[0] < length_ - rows * bead.room) return true;
+    for (std::size_t k = 0; k < beads_.size() && beads_[k].place[0] < rows * bead.room; ++k)
+      if (!apart(bead, beads_[k], length_)) return false;
     return true;
   }
   /// Where a bead touches both, on the side away from the edge.
@@ -84,47 +96,37 @@ class Front {
 }  // namespace
 
 Sheet SpreadPlane::arrange(const Site& site) const {
-  // Each bead keeps others away by r(1 + u), u even in [0, 2 spare]; what spare makes the beads fill the plane is found by
-  // trying.
-  const auto rolled = [&](double spare) {
-    Front front(width());
-    constexpr int edge_tries = 400;
-    std::size_t i = 0;
-    for (; i < beads(); ++i) {
-      Random random(site.seed, Purpose::bed, i);
-      const double room = radius() * (1 + 2 * spare * random.uniform());
-      bool lies = false;
-      for (int k = 0; k < edge_tries && !lies; ++k) {
-        const double x = random.uniform(0, 2 * radius());
-        lies = front.lie({{x, random.uniform(0, width())}, room});
-      }
-      if (!lies) break;
-    }
-    for (; i < beads(); ++i)
-      front.roll(radius() * (1 + 2 * spare * Random(site.seed, Purpose::bed, i).uniform()));
-    return front.beads();
-  };
-  const auto reached = [&](const std::vector<Front::Bead>& front) {
-    double sum = 0;  // twice the mean place is where the last row lies, on average
-    for (const auto& bead : front) sum += bead.place[0] / static_cast<double>(front.size());
-    return 2 * sum;
-  };
+  // Each bead keeps others away by r(1 + u), u even in [0, 2 spare]; discs that are rolled in cover about this of a plane.
+  constexpr double rolled_coverage = 0.8;
   const double coverage =
       static_cast<double>(count) * std::numbers::pi * radius() * radius() / (length() * width());
-  // Discs that are rolled in cover about this.
-  constexpr double rolled_coverage = 0.8;
-  double spare = std::max(0.0, std::sqrt(rolled_coverage / coverage) - 1);
-  auto front = rolled(spare);
-  constexpr int most_corrections = 3;
-  for (int k = 0; k < most_corrections; ++k) {
-    const double ratio = length() / reached(front);
-    if (std::abs(ratio - 1) < 2e-3) break;
-    spare = std::max(0.0, (1 + spare) * std::sqrt(ratio) - 1);
-    front = rolled(spare);
+  const double spare = std::max(0.0, std::sqrt(rolled_coverage / coverage) - 1);
+  Front front(length(), width());
+  bool at_edge = true, lies = true;
+  for (std::uint64_t i = 0; lies; ++i) {
+    Random random(site.seed, Purpose::bed, i);
+    const double room = radius() * (1 + 2 * spare * random.uniform());
+    constexpr int edge_tries = 400;
+    lies = false;
+    for (int k = 0; at_edge && k < edge_tries && !lies; ++k) {
+      const double x = random.uniform(0, 2 * radius());
+      lies = front.lie({{x, random.uniform(0, width())}, room});
+    }
+    at_edge = lies && at_edge;
+    if (!lies) lies = front.roll(room);
+  }
+  // Some beads too many or too few have come in: they are taken away here and there, or laid into the largest holes.
+  std::vector<Place> places;
+  for (const auto& bead : front.beads()) places.push_back(bead.place);
+  Random lot(site.seed, Purpose::bed, places.size());
+  while (places.size() > beads()) {
+    const auto k = static_cast<std::size_t>(lot.uniform() * static_cast<double>(places.size()));
+    places[k] = places.back();
+    places.pop_back();
   }
   Crowd crowd(length(), width());
-  const double fit = length() / reached(front);
-  for (const auto& bead : front) crowd.add({bead.place[0] * fit, bead.place[1]}, radius());
+  for (const auto& place : places) crowd.add(place, radius());
+  crowd.add_in_holes(beads(), radius());
   crowd.draw_in(widest_hole * radius());
   return crowd.sheet();
 }

@@ -52,6 +52,7 @@ static void describe(TomlReader& a, Curve& curve) {
     a.required("vary", curve.vary);
     a.required("values", curve.values);
     a.check(!curve.values.empty(), "values", "must hold at least one value");
+    a.value("quick_count", curve.quick_count, at_least(2));
   }
   a.check(curve.series.find_first_of(",\"\n") == std::string::npos, "series",
           "must not hold commas, quotes or line breaks");
@@ -62,9 +63,14 @@ static std::vector<Curve> point_by_point(const std::vector<Curve>& curves) {
   std::vector<Curve> points;
   for (const auto& curve : curves) {
     if (!curve.vary) points.push_back(curve);
-    for (const double value : curve.values) {
+    const std::size_t all = curve.values.size();
+    const auto few = static_cast<std::size_t>(curve.quick_count.value_or(static_cast<std::int64_t>(all)));
+    for (std::size_t k = 0, taken = 0; k < all; ++k) {
       Curve point = curve;
-      point.at = value;
+      const double value = point.at = curve.values[k];
+      // The first and the last one, and evenly between them
+      point.full_only = few < all && k != taken * (all - 1) / (few - 1);
+      if (!point.full_only) ++taken;
       point.set.push_back(fmt::format("{}={}", *curve.vary, value));
       points.push_back(std::move(point));
     }

@@ -56,9 +56,11 @@ struct Curve {
   std::int64_t peak = 1;                     ///< peak: which, counted from 0, the one at the least values
   double bandwidth = 4e-3;  ///< peak: of the density's kernel, in the column's unit (figures/peaks.hpp)
   double widest = std::numeric_limits<double>::infinity();  ///< peak: a wider cluster is a continuum, no peak
-  std::optional<std::string> vary;  ///< a key of the scene that changes along the curve …
-  std::vector<double> values;       ///< … and what it is, point by point
-  double at = 0;                    ///< the value that this point of the curve has; not in the file
+  std::optional<std::string> vary;          ///< a key of the scene that changes along the curve …
+  std::vector<double> values;               ///< … and what it is, point by point
+  std::optional<std::int64_t> quick_count;  ///< so many of them, evenly, are enough for a quick figure
+  bool full_only = false;                   ///< this point is not one of those; not in the file
+  double at = 0;                            ///< the value that this point of the curve has; not in the file
 };
 
 /// The data half of a figure recipe: [data] and [[data.curve]].

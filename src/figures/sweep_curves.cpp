@@ -95,6 +95,9 @@ void describe(TomlReader& a, SweepCurve& curve) {
   a.value("velocities", curve.velocities);
   a.value("alike", curve.alike, Range{0, 1, true, true});
   a.section("boundary", curve.boundary);
+  a.value("scale", curve.scale, positive);
+  a.value("along_sine", curve.along_sine);
+  a.check(!curve.along_sine || is_boundary(curve), "along_sine", "is of boundaries: AB, BC");
   a.value("above_offset", curve.above_offset);
   a.value("offset_of", curve.offset_of);
   a.check(is_boundary(curve) == curve.boundary.has_value(), "boundary",
@@ -136,7 +139,14 @@ FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetti
         const double above = y.mean - v_0;
         y = {above * above, y.error ? std::optional(2 * std::abs(above) * *y.error) : std::nullopt};
       }
-      table.rows.push_back({curve.panel, curve.series, p.x, y.mean, {}, y.error});
+      y.mean *= curve.scale;
+      if (y.error) *y.error *= curve.scale;
+      if (curve.along_sine) {
+        const auto error = y.error ? std::optional(*y.error * std::cos(y.mean)) : std::nullopt;
+        table.rows.push_back({curve.panel, curve.series, std::sin(y.mean), p.x, error, {}});
+      } else {
+        table.rows.push_back({curve.panel, curve.series, p.x, y.mean, {}, y.error});
+      }
     }
   }
   return table;

@@ -266,7 +266,7 @@ TEST_CASE("a frictionless impact on a bead deflects a ball by the azimuth of whe
     made.engine->collect_impacts(true);
     std::vector<Impact> impacts;
     std::array<double, 2> before{}, after{};
-    for (int k = 1; impacts.empty() && k < 1000; ++k) {
+    for (int k = 1; impacts.empty() && k < 3000; ++k) {
       const auto g = made.engine->grains();
       before = {g.velocity[0][0], g.velocity[1][0]};
       made.engine->advance_to(made.engine->step() + 200);
