@@ -57,6 +57,7 @@ class Sweeps {
     point.in_B = sweep::phase_of(launches, curve.alike) == sweep::Phase::B;
     if (curve.column == Column::v_x) {
       point.y = slow.median;
+      if (const auto error = over_seeds(base, curve, progress)) point.y->error = error;
     } else if (slow.count(measure::Verdict::steady) > 0) {
       const double R =
           curve.column == Column::surface_speed ? scene::setting_of(base.scene({})).mean_diameter / 2 : 1;
@@ -69,6 +70,18 @@ class Sweeps {
  private:
   const SweepSetting& setting_;
   sweep::PointStore store_;
+
+  /// The error of the median from one seed, such as one bed, to the next; empty if there is only one.
+  std::optional<double> over_seeds(const sweep::Base& base, const SweepCurve& curve,
+                                   const Report& progress) const {
+    if (setting_.seeds < 2 || !curve.velocities.empty()) return {};
+    std::vector<double> medians;
+    for (std::int64_t seed = 1; seed <= setting_.seeds; ++seed) {
+      const auto followed = store_.get(base.scene({fmt::format("seed={}", seed)}), progress);
+      if (const double v = sweep::tally(followed.starts).median.mean; std::isfinite(v)) medians.push_back(v);
+    }
+    return estimate_of(medians).error;
+  }
 };
 
 /// v_0 of (4.20) for the named series of a panel. WorkError if fewer than three of its points lie in B.

@@ -16,7 +16,7 @@ struct SweepCurve {
   std::vector<std::string> set;  ///< key=value, on top of the recipe's
   sweep::Axis x;                 ///< the parameter that is x
   enum class Column {
-    v_x,            ///< median of the mean velocities of the starts that still move
+    v_x,            ///< median of the mean velocities of the starts that still move; its error over the seeds
     omega,          ///< mean spin of the steady starts, positive when rolling downhill
     surface_speed,  ///< that times the mean radius, ωR
     AB,             ///< phase boundary as an angle, rad

@@ -68,7 +68,7 @@ TEST_CASE(
     CHECK(shape.overlapping < 1e-3);
     if (std::string_view(recipe) == "plane-lattice") continue;
     CHECK(shape.widest_hole <= 2);
-    CHECK(shape.hexatic < 0.2);  // no order of the plane as a whole; 1 on a lattice
+    CHECK(shape.hexatic < 0.35);  // of rolled-in rows on so narrow a plane; the lattice with noise has 0.7
     if (std::string_view(recipe) == "plane") CHECK(shape.widest_hole < 1.7701);  // as its key `hole` says
     if (std::string_view(recipe) == "plane-random") CHECK(shape.deep_holes < 0.03);
     for (const auto& p : sheet.place)
