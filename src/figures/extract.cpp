@@ -275,4 +275,11 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
   return {};
 }
 
+std::optional<double> left_out(const Curve& curve, std::span<const fs::path> runs) {
+  if (curve.where.empty()) return {};
+  const auto passes = joined(curve, runs).passes;
+  const auto passing = static_cast<double>(std::count(passes.begin(), passes.end(), true));
+  return passes.empty() ? 0 : 1 - passing / static_cast<double>(passes.size());
+}
+
 }  // namespace chute::figures

@@ -125,6 +125,10 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
       table.comments.push_back(recipe.curves[c].series + ": " + verdicts_of(runs));
     if (context.quick && recipe.curves[c].full_only) continue;
     const auto rows = extract(recipe.curves[c], runs);
+    if (const auto part = left_out(recipe.curves[c], runs);
+        part && recipe.curves[c].extract == Extract::scatter)
+      table.comments.push_back(fmt::format("{} {}: {:.1f} % of the rows are left out", recipe.curves[c].panel,
+                                           recipe.curves[c].series, 100 * *part));
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }
   if (!recipe.sweeps.empty()) {

@@ -301,3 +301,61 @@ TEST_CASE("a ball does not notice where a period of the plane begins") {
   const auto here = run(0, 0), there = run(0.35 * 0.035575, 0.61 * 0.013756);
   for (std::size_t k = 0; k < 2; ++k) CHECK(there[k] == Approx(here[k]).margin(1e-7));
 }
+
+// No force but that of the contact acts on two free spheres: whatever it is, it leaves their momentum as it was, and their
+// angular momentum but for the arms, which overlap shortens (hard spheres have none).
+TEST_CASE("an oblique impact of two spinning spheres in space keeps momentum and angular momentum") {
+  for (const char* method : {"soft", "event"}) {
+    const auto scene = scene::read_scene(
+        scenes + "settle-3d.toml",
+        {"grains.count=2", "grains.diameter.std=0", "contact.normal.stiffness=1e7",
+         "contact.tangential={law=\"coulomb-viscous\", friction=0.4, viscosity=1e4, relaxation_steps=12}",
+         std::string("engine.method=") + method});
+    auto world = scene::make_world<3>(scene);
+    world.gravity = {};
+    auto& g = world.grains;
+    const std::array<Vec<3>, 2> place{{{{3, 3, 5}}, {{4.2, 3.4, 5.3}}}},
+        velocity{{{{1, 0, 0}}, {{-1, 0.3, -0.2}}}}, spin{{{{1, -2, 0.5}}, {{0.3, 2, -1}}}};
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        g.position[k][i] = place[i][k], g.velocity[k][i] = velocity[i][k], g.spin[k][i] = spin[i][k];
+    const auto engine = scene.engine->make(std::move(world), scene::setting_of(scene), 1);
+    const auto momenta = [&] {
+      const auto v = engine->grains();
+      std::array<Vec<3>, 2> sum{};
+      for (std::size_t i = 0; i < 2; ++i) {
+        Vec<3> r, p, L;
+        for (std::size_t k = 0; k < 3; ++k) {
+          r[k] = v.unwrapped(i, k), p[k] = v.mass[i] * v.velocity[k][i];
+          L[k] = 0.4 * v.mass[i] * v.radius[i] * v.radius[i] * v.spin[k][i];
+        }
+        sum[0] = sum[0] + p, sum[1] = sum[1] + L + cross(r, p);
+      }
+      return sum;
+    };
+    const auto before = momenta();
+    const double energy = engine->energy().stored();
+    engine->advance_to(std::llround(0.5 / engine->time_step()));
+    const auto after = momenta();
+    CAPTURE(method);
+    CHECK(engine->energy().stored() < 0.9 * energy);  // they have met
+    CHECK(norm(after[0] - before[0]) < 1e-11);
+    const bool soft = std::string_view(method) == "soft";
+    CHECK(norm(after[1] - before[1]) < (soft ? 1e-3 : 1e-11));
+    CHECK(std::abs(engine->energy().residual()) < (soft ? 1e-3 : 1e-11) * energy);
+  }
+}
+
+TEST_CASE("the energy account of a ball that runs down a plane of beads closes") {
+  for (const char* method : {"soft", "event"}) {
+    const auto scene = scene::read_scene(
+        scenes + "ball-3d.toml", {"bed.count=408", "bed.size=[0.035575, 0.013756]", "grains.size_ratio=3",
+                                  "contact.normal.restitution=0.8", std::string("engine.method=") + method});
+    const auto made = make_engine(scene);
+    made.engine->advance_to(std::llround(0.5 / made.engine->time_step()));
+    const auto account = made.engine->energy();
+    CAPTURE(method, account.gravity_work, account.normal_loss, account.shear_loss);
+    CHECK(std::abs(account.residual()) < 2e-3 * account.gravity_work);
+    CHECK(account.normal_loss > account.shear_loss);  // thesis 4.3.4.1: most dissipation is normal
+  }
+}
