@@ -146,8 +146,9 @@ FigureTable compute_theory_m_08(const FigureContext& context) {
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures() {
   static const std::map<std::string, std::function<FigureTable(const FigureContext&)>> all{
       {"fig-4-04", compute_fig_4_04},       {"fig-4-19", compute_fig_4_19},
-      {"theory-4-17", compute_theory_4_17}, {"theory-4-18", compute_theory_4_18},
-      {"theory-4-20", compute_theory_4_20}, {"theory-m-08", compute_theory_m_08}};
+      {"fig-4-31", compute_fig_4_31},       {"theory-4-17", compute_theory_4_17},
+      {"theory-4-18", compute_theory_4_18}, {"theory-4-20", compute_theory_4_20},
+      {"theory-m-08", compute_theory_m_08}};
   return all;
 }
 
