@@ -1,3 +1,4 @@
+#include "engines/contact/contact_method.hpp"
 #include "engines/event/event_method.hpp"
 #include "engines/hybrid/hybrid_method.hpp"
 #include "engines/soft/soft_method.hpp"
@@ -8,6 +9,7 @@ namespace chute::engines {
 Catalogue<Method>& list() {
   static Catalogue<Method> all{kind_of<Method, soft::SoftMethod>(), kind_of<Method, event::EventMethod>(),
                                kind_of<Method, hybrid::HybridMethod>(),
+                               kind_of<Method, contact::ContactMethod>(),
                                kind_of<Method, stochastic::StochasticMethod>()};
   return all;
 }
