@@ -156,27 +156,27 @@ ContactEngine<D> heap(int wide, int layers, ContactSetup<D> setup, double spread
 
 }  // namespace
 
+// In space the states of a pile come back sooner or later, and the exact solver says so; until then they agree.
 TEST_CASE("the fast solver and its exact twin move a small pile alike") {
-  const auto run = []<int D>(std::integral_constant<int, D>) {
-    auto setup = setup_of<D>(0.2, 0.01);
-    auto fast = heap<D>(D == 2 ? 4 : 2, 3, setup);
+  const auto run = []<int D>(std::integral_constant<int, D>, double mu, std::int64_t steps) {
+    auto setup = setup_of<D>(mu, 0.01);
+    auto fast = heap<D>(D == 2 ? 4 : 2, D == 2 ? 3 : 2, setup);
     setup.solver = SolverKind::exact;
     setup.tolerance = 1e-7;
-    auto exact = heap<D>(D == 2 ? 4 : 2, 3, setup);
-    // Until it all lies there: later differences of rounding grow by what the pile has of chaos.
-    fast.advance_to(80), exact.advance_to(80);
-    CHECK(fast.contacts().size() > 5);
+    auto exact = heap<D>(D == 2 ? 4 : 2, D == 2 ? 3 : 2, setup);
+    fast.advance_to(steps), exact.advance_to(steps);
+    CHECK(fast.contacts().size() > (D == 2 ? 15 : 8));
     CHECK(fast.record().unconverged == 0);
-    for (int k = 0; k < D; ++k)
+    for (std::size_t k = 0; k < D; ++k)
       for (std::size_t i = 0; i < fast.state().moving; ++i) {
-        const auto axis = static_cast<std::size_t>(k);
-        CAPTURE(D, k, i);
-        CHECK(fast.state().position[axis][i] == Approx(exact.state().position[axis][i]).margin(1e-7));
-        CHECK(fast.state().velocity[axis][i] == Approx(exact.state().velocity[axis][i]).margin(1e-6));
+        CAPTURE(D, mu, k, i);
+        CHECK(fast.state().position[k][i] == Approx(exact.state().position[k][i]).margin(1e-8));
+        CHECK(fast.state().velocity[k][i] == Approx(exact.state().velocity[k][i]).margin(1e-8));
       }
   };
-  run(std::integral_constant<int, 2>{});
-  run(std::integral_constant<int, 3>{});
+  for (const double mu : {0.0, 0.2, 0.5}) run(std::integral_constant<int, 2>{}, mu, 300);
+  run(std::integral_constant<int, 3>{}, 0, 300);
+  for (const double mu : {0.05, 0.2}) run(std::integral_constant<int, 3>{}, mu, 100);
 }
 
 namespace {

@@ -225,6 +225,7 @@ void ContactEngine<D>::push_apart(double end, const Vec<D>& gravity) {
     return setup_.relaxation * std::max(0.0, overlap - slop * setup_.diameter);
   };
   for (const auto& t : touching_) {
+    if (!(t.gap < 0)) continue;  // an impact of the next step, which will be moved back to its time
     if (is_wall(t.j)) {
       const auto touch = wall_of(t.j).nearest(grains_.place(t.i), end, setup_.domain);
       if (touch.height < grains_.radius[t.i])
