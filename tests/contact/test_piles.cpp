@@ -222,33 +222,3 @@ TEST_CASE("the same bytes resumed or not") {
   second.advance_to(150);
   CHECK(state_of(second) == state_of(whole));
 }
-
-TEST_CASE("a heap of 1000 discs at rest creeps less than 1e-6 d per unit of time and weighs what it weighs") {
-  auto setup = setup_of<2>(0.5);
-  setup.contact.restitution = laws::ConstantRestitution{0.3};
-  setup.tolerance = 1e-6;
-  auto settling = heap<2>(25, 40, setup);
-  settling.advance_to(6000);
-  setup.tolerance = 1e-10;
-  setup.iterations = 20000;
-  auto engine = heap<2>(25, 40, setup);
-  std::istringstream state(state_of(settling));
-  engine.restore(state);
-  engine.advance_to(6100);
-  const auto before = engine.state().position;
-  engine.advance_to(6300);
-  double most = 0;
-  for (std::size_t i = 0; i < engine.state().moving; ++i)
-    for (std::size_t k = 0; k < 2; ++k)
-      most = std::max(most, std::abs(engine.state().position[k][i] - before[k][i]) / 2);
-  const auto weigh = [](const auto& pile) {
-    double on_walls = 0;
-    for (const auto& c : pile.contacts())
-      if (is_wall(c.b)) on_walls -= c.force[1];
-    return on_walls;
-  };
-  CAPTURE(most, engine.tells());
-  CHECK(most < 1e-6);
-  CHECK(weigh(engine) == Approx(1000).epsilon(1e-6));
-  CHECK(engine.record().last_residual < 1e-10);
-}
