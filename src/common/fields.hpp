@@ -54,8 +54,13 @@ inline constexpr Field overlap{"overlap", "\\xi", "m", "d", false};
 inline constexpr Field normal_force{"normal_force", "F_n", "N", "mg", false};
 inline constexpr Field shear_force{"shear_force", "F_s", "N", "mg", true};
 inline constexpr Field state{"state", "state", "", "", false};  ///< 0 unknown, 1 sticks, 2 slides
-inline constexpr std::array contact_fields{contact_a, contact_b, point,        normal,      branch,
-                                           overlap,   force,     normal_force, shear_force, state};
+// Of methods whose contacts are impulses in a step
+inline constexpr Field normal_impulse{"normal_impulse", "J_n", "N s", "m\\sqrt{gd}", false};
+inline constexpr Field shear_impulse{"shear_impulse", "J_s", "N s", "m\\sqrt{gd}", true};
+inline constexpr Field mobilisation{"mobilisation", "|F_s|/\\mu F_n", "", "", false};
+inline constexpr std::array contact_fields{contact_a,      contact_b,     point,        normal,      branch,
+                                           overlap,        force,         normal_force, shear_force, state,
+                                           normal_impulse, shear_impulse, mobilisation};
 
 inline constexpr std::array impact_fields{time,   gamma,        phi,     v_n,  v_t,
                                           flight, gamma_before, rolling, bead, grain};

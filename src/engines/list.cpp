@@ -1,3 +1,4 @@
+#include "engines/contact/contact_method.hpp"
 #include "engines/event/event_method.hpp"
 #include "engines/hybrid/hybrid_method.hpp"
 #include "engines/monte_carlo/monte_carlo_method.hpp"
@@ -12,6 +13,7 @@ Catalogue<Method>& list() {
       kind_of<Method, soft::SoftMethod>(),
       kind_of<Method, event::EventMethod>(),
       kind_of<Method, hybrid::HybridMethod>(),
+      kind_of<Method, contact::ContactMethod>(),
       kind_of<Method, stochastic::StochasticMethod>(),
       kind_of<Method, restructuring::RestructuringMethod>(),
       kind_of<Method, monte_carlo::MonteCarloMethod>(),

@@ -14,6 +14,8 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
+
 #include "common/error.hpp"
 #include "common/fields.hpp"
 
@@ -184,6 +186,16 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
   number(fields::shear_force, &Contact::shear_force);
   add_array<vtkIntArray>(to, fields::state.name, n, 1,
                          [&](std::size_t i, int) { return static_cast<int>(contacts[i].state); });
+  if (std::ranges::any_of(contacts, [](const Contact& c) { return c.impulse_time > 0; })) {
+    const auto impulse = [&](const fields::Field& field, double Contact::*force) {
+      add_array<vtkDoubleArray>(to, field.name, n, 1, [&](std::size_t i, int) {
+        return contacts[i].impulse_time * contacts[i].*force;
+      });
+    };
+    impulse(fields::normal_impulse, &Contact::normal_force);
+    impulse(fields::shear_impulse, &Contact::shear_force);
+    number(fields::mobilisation, &Contact::mobilisation);
+  }
   add_numbers(data, fields::time_value, std::array{grains.time});
   add_facts(data, facts);
   return bytes(data);
