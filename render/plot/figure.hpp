@@ -75,6 +75,16 @@ enum class Place {
 
 inline bool in_corner(Place p) { return p != Place::automatic && p != Place::top && p != Place::off; }
 
+/// A quantity over the plane, as colours of cells.
+struct Map {
+  std::vector<double> x, y;         ///< middles of the cells, ascending
+  std::vector<double> values;       ///< of cell (i, j) at j times the number of x, plus i; NaN: blank
+  std::optional<double> low, high;  ///< of the colours; automatic where absent
+  std::string label;                ///< of the colour bar, with its unit
+  bool diverging = false;           ///< for values of both signs: white is 0
+  int contours = 0;                 ///< lines of equal value, evenly between the ends of the colours
+};
+
 struct Plot {
   std::string title;
   Axis x, y;
@@ -82,6 +92,7 @@ struct Plot {
   std::vector<Reference> references;
   std::vector<Region> regions;
   std::vector<Note> notes;
+  std::optional<Map> map;  ///< beneath everything else; its colour bar stands on the right
 };
 
 /// A small plot inside a panel.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 
 #include "common/error.hpp"
+#include "plot/map.hpp"
 #include "plot/recipe.hpp"
 
 namespace chute::plot {
@@ -179,12 +182,54 @@ class Builder {
       for (double& x : series[i].x) x += step * (static_cast<double>(i) - (n - 1) / 2);
   }
 
+  /// The rows of a map: of each series that matches, in order of the number after its last =.
+  Map make_map(const PanelRecipe& p, std::vector<Series>& series) const {
+    const auto& wanted = *p.map;
+    std::map<double, const Series*> of;
+    for (const auto& s : series) {
+      if (!matches(wanted.series, s.name)) continue;
+      const auto text = s.name.substr(s.name.rfind('=') + 1);
+      char* end = nullptr;
+      const double y = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end) fail_recipe(fmt::format("map: the name \"{}\" ends with no number", s.name));
+      of[factor(recipe_.y, p.y) * y] = &s;
+    }
+    if (of.empty()) require_series(wanted.series, p.label);
+    Map map;
+    map.label = wanted.label, map.low = wanted.low, map.high = wanted.high;
+    map.diverging = wanted.diverging, map.contours = static_cast<int>(wanted.contours);
+    for (const auto& [y, row] : of) map.x.insert(map.x.end(), row->x.begin(), row->x.end());
+    std::sort(map.x.begin(), map.x.end());
+    map.x.erase(std::unique(map.x.begin(), map.x.end()), map.x.end());
+    for (const auto& [y, row] : of) {
+      map.y.push_back(y);
+      std::vector<double> values(map.x.size(), unknown);
+      const double unscaled = factor(recipe_.y, p.y);
+      for (std::size_t i = 0; i < row->x.size(); ++i)
+        values[static_cast<std::size_t>(std::lower_bound(map.x.begin(), map.x.end(), row->x[i]) -
+                                        map.x.begin())] = row->y[i] / unscaled;
+      map.values.insert(map.values.end(), values.begin(), values.end());
+    }
+    std::erase_if(series, [&](const Series& s) { return matches(wanted.series, s.name); });
+    return map;
+  }
+
   Panel make_panel(const PanelRecipe& p) const {
     Panel panel;
     panel.label = p.tag.value_or(p.label), panel.title = p.title, panel.legend = p.legend;
     panel.x = make_axis(recipe_.x, p.x), panel.y = make_axis(recipe_.y, p.y);
     panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
     panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
+    if (p.map) {
+      panel.map = make_map(p, panel.series);
+      // A map fills its frame.
+      const auto tight = [](Axis& axis, const std::vector<double>& middles) {
+        const auto edges = cell_edges(middles);
+        if (!axis.min) axis.min = edges.front();
+        if (!axis.max) axis.max = edges.back();
+      };
+      tight(panel.x, panel.map->x), tight(panel.y, panel.map->y);
+    }
     if (!panel.x.names.empty()) set_side_by_side(panel.series);
     for (const auto& i : p.insets) {
       Inset& inset = panel.insets.emplace_back();

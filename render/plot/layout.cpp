@@ -12,6 +12,7 @@
 #include "plot/axes.hpp"
 #include "plot/inset.hpp"
 #include "plot/legend.hpp"
+#include "plot/map.hpp"
 
 namespace chute::plot {
 namespace {
@@ -169,6 +170,8 @@ class Layouter {
       const double old_width = width, old_height = height;
       for (std::size_t i = 0; i < n; ++i) {
         Margins m = axes_[i]->fit(width, height);
+        if (figure_.panels[i].map)
+          m.right = std::max(m.right, bar_width(look_, *figure_.panels[i].map, height));
         axes_top_[i] = m.top;
         m.top += heading_height(figure_.panels[i]) + above_frame(static_cast<int>(i), width);
         Margins &c = column_margins_[static_cast<std::size_t>(column(i))],
@@ -239,6 +242,8 @@ class Layouter {
       common.right = column_margins_[static_cast<std::size_t>(column(i))].right;
       common.x_gap = row_margins_[static_cast<std::size_t>(row(i))].x_gap;
       axes_[i]->draw(out.list, look_, frames_[i], common, static_cast<int>(i), out.boxes);
+      if (figure_.panels[i].map)
+        draw_bar(out.list, look_, frames_[i], *figure_.panels[i].map, static_cast<int>(i), out.boxes);
     }
     put_headings(out, occupied);
     for (std::size_t i = 0; i < n; ++i)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "plot/map.hpp"
 #include "plot/polyline.hpp"
 #include "plot/shading.hpp"
 
@@ -274,6 +275,10 @@ Extents extents_of(const Plot& plot) {
     if (there > 2 && 5 * static_cast<std::size_t>(there) > s.y.size())
       e.y.marker_low = std::min(e.y.marker_low, e.y.low);
   }
+  if (plot.map) {
+    for (const double x : cell_edges(plot.map->x)) e.x.include(x, plot.x.scale);
+    for (const double y : cell_edges(plot.map->y)) e.y.include(y, plot.y.scale);
+  }
   for (const auto& r : plot.references) {
     if (r.kind == Reference::Kind::horizontal) e.y.include(r.at, plot.y.scale);
     if (r.kind == Reference::Kind::vertical) e.x.include(r.at, plot.x.scale);
@@ -284,6 +289,7 @@ Extents extents_of(const Plot& plot) {
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks) {
   painter.list.items.emplace_back(ClipBegin{frame.rect});
+  if (plot.map) draw_map(painter.list, painter.look, frame, *plot.map);
   for (const auto& region : plot.regions) draw_region(painter, frame, plot, region);
   for (const auto& reference : plot.references) draw_reference(painter, frame, reference);
   std::vector<SeriesPainter> series;

@@ -110,6 +110,15 @@ static void describe(TomlReader& a, InsetRecipe& inset) {
   a.choice("place", inset.place, std::span(place_words).first(5));
 }
 
+static void describe(TomlReader& a, MapRecipe& map) {
+  a.required("series", map.series);
+  read_text(a, "label", map.label);
+  a.value("low", map.low);
+  a.value("high", map.high);
+  a.value("diverging", map.diverging);
+  a.value("contours", map.contours, between(0, 50));
+}
+
 static void describe(TomlReader& a, PanelRecipe& panel) {
   a.value("label", panel.label);
   a.value("tag", panel.tag);
@@ -121,6 +130,7 @@ static void describe(TomlReader& a, PanelRecipe& panel) {
   a.sections("region", panel.regions);
   a.sections("note", panel.notes);
   a.sections("inset", panel.insets);
+  a.section("map", panel.map);
 }
 
 static void describe(TomlReader& a, SeriesRecipe& series) {

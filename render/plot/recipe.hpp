@@ -41,6 +41,8 @@
 ///     region = [{ x_min = 0, x_max = 1, y_min = 0, y_max = 1, above = "AB eps=0", below = "BC eps=0", shade = 1 }]
 ///                               # shaded (0 to 3) within the ranges and between the curves that are named
 ///     note = [{ text = "B", x = 2.2, y = 0.17, fraction = false }]   # its middle; fraction: of the frame, from its lower left
+///     map = { series = "density t=*", label = "$\\rho$", low = 0, high = 1, diverging = false, contours = 0 }
+///                               # colours: each series that matches is a row, whose place along y follows its name's last =
 ///     inset = [{ series = ["e_n=0.8*"], panel = "i", x = { … }, y = { … }, place = "automatic", width = 0.42, height = 0.4 }]
 ///                               # series and panel: what it shows, default all of this panel; a panel that only an inset
 ///                               # names is drawn there only; place: automatic or a corner; width, height: of the frame
@@ -81,6 +83,13 @@ struct InsetRecipe {
   Place place = Place::automatic;
 };
 
+struct MapRecipe {
+  std::string series, label;
+  std::optional<double> low, high;
+  bool diverging = false;
+  std::int64_t contours = 0;
+};
+
 struct PanelRecipe {
   std::string label, title;
   std::optional<std::string> tag;  ///< stands for the label in the picture
@@ -90,6 +99,7 @@ struct PanelRecipe {
   std::vector<Region> regions;
   std::vector<Note> notes;
   std::vector<InsetRecipe> insets;
+  std::optional<MapRecipe> map;
 };
 
 struct PlotRecipe {

@@ -73,7 +73,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 bool is_vtk(const fs::path& path) {
   const auto extension = path.extension();
-  return extension == ".vtp" || extension == ".vtu" || extension == ".vtk";
+  return extension == ".vtp" || extension == ".vtu" || extension == ".vtk" || extension == ".vti";
 }
 
 std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pattern) {
@@ -94,7 +94,8 @@ std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pa
 std::vector<FrameFile> frames_of(const fs::path& source) {
   std::error_code error;
   if (fs::is_directory(source, error)) {
-    if (fs::exists(source / "frames.pvd", error)) return read_pvd(source / "frames.pvd");
+    for (const char* index : {"frames.pvd", "cells.pvd"})
+      if (fs::exists(source / index, error)) return read_pvd(source / index);
     if (fs::exists(source / "scene.toml", error))
       throw InputError(
           source.string() +
@@ -133,7 +134,7 @@ std::vector<FrameFile> read_pvd(const fs::path& path) {
 std::vector<FrameFile> find_frames(const fs::path& source) {
   auto frames = frames_of(source);
   if (frames.empty())
-    throw InputError(source.string() + ": no frames: no VTK file (.vtp, .vtu, .vtk) is there");
+    throw InputError(source.string() + ": no frames: no VTK file (.vtp, .vtu, .vtk, .vti) is there");
   for (auto& frame : frames)
     frame.contacts = find_beside(frame, (fs::path("contacts") / frame.path.filename()).string());
   return frames;

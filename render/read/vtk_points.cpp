@@ -6,6 +6,7 @@
 #include <vtkDataArraySelection.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
+#include <vtkImageData.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -15,6 +16,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
+#include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -27,6 +29,8 @@
 #include <streambuf>
 
 #include "common/error.hpp"
+#include "common/fields.hpp"
+#include "read/image_data.hpp"
 #include "read/legacy_vtk.hpp"
 #include "read/xml_check.hpp"
 
@@ -257,6 +261,56 @@ VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path, const 
   for (const auto& array : result.point_arrays)
     if (array.values.size() != result.x.size() * static_cast<std::size_t>(array.components))
       fail(fmt::format("damaged or cut short: array \"{}\" does not fit the number of points", array.name));
+  return result;
+}
+
+ImageData parse_image_data(std::string bytes, const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
+  if (bytes.empty()) fail("the file is empty");
+  if (const std::string type(xml_type(bytes)); type != "ImageData")
+    fail(type.empty() ? std::string("not a VTK file of image data (.vti)")
+                      : fmt::format("a VTK file of type {}, expected ImageData", type));
+  if (const auto fault = xml_fault(bytes); !fault.empty()) fail("damaged or cut short: " + fault);
+  ImageData result;
+  try {
+    const Listening listening;
+    vtkNew<InPlace<vtkXMLImageDataReader>> reader;
+    reader->read(bytes);
+    reader->Update();
+    auto* data = vtkImageData::SafeDownCast(reader->GetOutputAsDataSet());
+    if (!complaint.empty()) throw std::runtime_error(complaint);
+    if (reader->GetErrorCode() != 0 || !data) throw std::runtime_error("VTK cannot read it");
+    int extent[6];
+    data->GetExtent(extent);
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.points[k] = extent[2 * k + 1] - extent[2 * k] + 1;
+      result.spacing[k] = data->GetSpacing()[k];
+      result.origin[k] = data->GetOrigin()[k] + extent[2 * k] * result.spacing[k];
+    }
+    result.cell_arrays = arrays_of(data->GetCellData());
+    result.point_arrays = arrays_of(data->GetPointData());
+    auto* facts = data->GetFieldData();
+    if (auto* time = vtkDataArray::SafeDownCast(facts->GetAbstractArray(fields::time_value.data()));
+        time && time->GetNumberOfValues() > 0)
+      result.time = time->GetTuple1(0);
+    if (auto* units = vtkStringArray::SafeDownCast(facts->GetAbstractArray(fields::units.data()));
+        units && units->GetNumberOfValues() > 0)
+      result.units = units->GetValue(0);
+  } catch (const std::bad_alloc&) {
+    fail("damaged: it asks for more memory than there is");
+  } catch (const std::runtime_error& error) {
+    fail(fmt::format("damaged or cut short: {}", error.what()));
+  }
+  std::size_t points = 1, cells = 1;
+  for (const int n : result.points)
+    points *= static_cast<std::size_t>(n), cells *= static_cast<std::size_t>(std::max(1, n - 1));
+  const auto check = [&](const std::vector<PointArray>& arrays, std::size_t count) {
+    for (const auto& a : arrays)
+      if (a.values.size() != count * static_cast<std::size_t>(a.components))
+        fail(fmt::format("damaged or cut short: array \"{}\" does not fit the grid", a.name));
+  };
+  check(result.cell_arrays, cells);
+  check(result.point_arrays, points);
   return result;
 }
 

@@ -18,6 +18,7 @@
 #include "view/crew.hpp"
 #include "view/frame_renderer.hpp"
 #include "view/movie.hpp"
+#include "view/render_cells.hpp"
 
 namespace chute::view {
 namespace fs = std::filesystem;
@@ -248,6 +249,7 @@ RenderReport render_run(const RenderJob& job) {
 
   const auto frames = read::find_frames(job.source);
   const auto numbers = frame_numbers(job.frames, frames.size());
+  if (are_cells(frames)) return render_cells(job, frames, numbers);
   if (job.style.chains &&
       std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
     throw InputError(job.source.string() +

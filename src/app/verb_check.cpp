@@ -14,6 +14,7 @@ namespace {
 void check(const std::string& file, const std::vector<std::string>& settings) {
   std::string resolved;
   std::vector<Fact> facts;
+  std::vector<std::string> warnings;
   if (experiments::is_experiment(file)) {
     const auto experiment = experiments::read_experiment(file, settings);
     resolved = to_toml(experiment), facts = experiments::facts(experiment);
@@ -27,7 +28,7 @@ void check(const std::string& file, const std::vector<std::string>& settings) {
   } else {
     const auto scene = scene::read_scene(file, settings);
     run::Session(scene, 1);  // what a run would refuse, it refuses here
-    resolved = to_toml(scene), facts = run::facts(scene);
+    resolved = to_toml(scene), facts = run::facts(scene), warnings = run::warnings(scene);
   }
   fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, resolved);
   for (const auto& fact : facts) {
@@ -35,6 +36,7 @@ void check(const std::string& file, const std::vector<std::string>& settings) {
         fact.name == "cost" ? duration_text(fact.value) : fmt::format("{:.6g} {}", fact.value, fact.unit);
     fmt::print("# {:<16} {:<26} {}\n", fact.name, value, fact.meaning);
   }
+  for (const auto& warning : warnings) fmt::print("# warning: {}\n", warning);
 }
 
 }  // namespace

@@ -199,7 +199,7 @@ void add_render(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
   verb->add_option(
           "run", a->run,
-          "run directory; or VTK files of grains, chute's or another engine's: a directory, a time index "
+          "run directory; or VTK files of grains or of cells (.vti), chute's or another engine's: a directory, a time index "
           "(.pvd), one file, or a pattern in quotes")
       ->required();
   verb->add_option("-o,--output", a->output,

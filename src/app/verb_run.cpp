@@ -7,6 +7,7 @@
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "experiments/perform.hpp"
+#include "run/facts.hpp"
 #include "run/run.hpp"
 
 namespace chute::app {
@@ -43,6 +44,8 @@ void run(const RunArguments& arguments) {
   options.command_line = command_line();
   if (experiments::is_experiment(arguments.scene)) return experiment(arguments, options);
   const auto scene = scene::read_scene(arguments.scene, arguments.settings);
+  if (!arguments.quiet)
+    for (const auto& warning : run::warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
   Progress progress("run", arguments.quiet);
   options.progress = [&](double part) {
     progress.show(part);

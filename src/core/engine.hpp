@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/avalanche.hpp"
 #include "core/contact.hpp"
 #include "core/flush_subnormals.hpp"
 #include "core/grains.hpp"
@@ -77,6 +78,10 @@ class Engine {
   /// Of hard grains: every collision, in order of time, as stresses and networks need them.
   virtual void collect_collisions(bool) {}
   virtual std::vector<Collision> take_collisions() { return {}; }
+
+  /// Of piles: every avalanche since it was last taken.
+  virtual void collect_avalanches(bool) {}
+  virtual std::vector<Avalanche> take_avalanches() { return {}; }
 
   /// Numbers of its own that the method tells with every row of the series (iterations, acceptance …): always the
   /// same names.

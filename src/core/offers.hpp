@@ -6,17 +6,19 @@ namespace chute {
 /// What a method gives to whoever watches it.
 struct Offers {
   bool in_2d = true, in_3d = true;
-  bool contacts = false;         ///< what touches, with forces
-  bool collisions = false;       ///< what passes between hard grains, collision by collision
-  bool impacts = false;          ///< the begin of each contact
-  bool independent = false;      ///< grains side by side that do not feel each other
-  bool walls = false;            ///< planes that stand still
-  bool only_floor = false;       ///< of these only level ones, below the grains
-  bool wall_shapes = false;      ///< segments, polygons and cylinders, and all of them moving
-  bool wall_surfaces = false;    ///< friction and restitution of a wall's own
-  bool wall_sticking = false;    ///< tangential restitution of a wall's own
-  bool static_friction = false;  ///< a friction at rest that is not that of sliding
-  bool tilting = false;          ///< an incline that is tilted meanwhile
+  bool contacts = false;           ///< what touches, with forces
+  bool collisions = false;         ///< what passes between hard grains, collision by collision
+  bool impacts = false;            ///< the begin of each contact
+  bool independent = false;        ///< grains side by side that do not feel each other
+  bool walls = false;              ///< planes that stand still
+  bool only_floor = false;         ///< of these only level ones, below the grains
+  bool wall_shapes = false;        ///< segments, polygons and cylinders, and all of them moving
+  bool wall_surfaces = false;      ///< friction and restitution of a wall's own
+  bool wall_sticking = false;      ///< tangential restitution of a wall's own
+  bool wall_temperatures = false;  ///< walls that heat
+  bool static_friction = false;    ///< a friction at rest that is not that of sliding
+  bool tilting = false;            ///< an incline that is tilted meanwhile
+  bool avalanches = false;         ///< what follows when a grain is added
   bool threads = false;
   std::string_view clock = "time";  ///< what a step counts
 };

@@ -31,6 +31,8 @@ struct Nearest {
 /// What is the wall's own when grains hit it; else it is as if they hit each other.
 struct WallSurface {
   std::optional<double> friction, static_friction, restitution, tangential_restitution;
+  std::optional<double>
+      temperature;  ///< an energy: grains leave it as if they came from a gas of this temperature
 };
 
 /// How a wall moves: steadily, and to and fro along its normal, A sin 2πft.

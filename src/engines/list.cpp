@@ -1,4 +1,6 @@
+#include "engines/automaton/automaton_method.hpp"
 #include "engines/contact/contact_method.hpp"
+#include "engines/dsmc/dsmc_method.hpp"
 #include "engines/event/event_method.hpp"
 #include "engines/hybrid/hybrid_method.hpp"
 #include "engines/monte_carlo/monte_carlo_method.hpp"
@@ -17,6 +19,8 @@ Catalogue<Method>& list() {
       kind_of<Method, stochastic::StochasticMethod>(),
       kind_of<Method, restructuring::RestructuringMethod>(),
       kind_of<Method, monte_carlo::MonteCarloMethod>(),
+      kind_of<Method, automaton::AutomatonMethod>(),
+      kind_of<Method, dsmc::DsmcMethod>(),
   };
   return all;
 }

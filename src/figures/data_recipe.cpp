@@ -5,8 +5,9 @@
 namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
-constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv,  "peak"sv,  "profile"sv,
-                                   "series"sv,    "last"sv,       "pressure"sv, "value"sv, "line"sv};
+constexpr std::array extract_words{
+    "histogram"sv, "return-map"sv, "scatter"sv, "peak"sv, "profile"sv,  "series"sv,     "last"sv,
+    "pressure"sv,  "value"sv,      "line"sv,    "map"sv,  "spectrum"sv, "avalanches"sv, "mean-avalanche"sv};
 }  // namespace
 
 static void describe(TomlReader& a, Where& where) {
@@ -26,7 +27,15 @@ static void describe(TomlReader& a, Curve& curve) {
           "changes a scene; runs that are there cannot be changed");
   a.choice("extract", curve.extract, extract_words);
   const bool line = curve.extract == Extract::line, value = curve.extract == Extract::value;
-  if (!line) a.required("column", curve.column);
+  const bool avalanches = curve.extract == Extract::avalanches;
+  if (avalanches || curve.extract == Extract::mean_avalanche)
+    a.required("length", curve.length, positive);
+  else if (!line)
+    a.required("column", curve.column);
+  if (avalanches) {
+    a.value("collapse", curve.collapse);
+    a.check(!curve.collapse || curve.collapse->size() == 2, "collapse", "must be [tau, D]");
+  }
   const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
   if (scatter) a.required("against", curve.against), a.value("absolute_x", curve.absolute_x);
   if (value) a.required("file", curve.file);

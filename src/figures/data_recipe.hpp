@@ -23,7 +23,11 @@ enum class Extract {
   last,        ///< a column of series.csv at the end of the run, against `at`
   pressure,    ///< a column of pressure.csv against the packing fraction
   value,       ///< the one number of a column of `file`, against the value of `vary`; averaged over the runs
-  line         ///< a straight line through the origin, to guide the eye
+  line,        ///< a straight line through the origin, to guide the eye
+  map,         ///< a field of cells against x, one series a file
+  spectrum,    ///< of that field's fluctuations in time
+  avalanches,  ///< distribution of avalanches' sizes, of a pile as long as `length`
+  mean_avalanche  ///< their mean size, against `length`
 };
 
 /// Which rows count: those whose column lies in [low, high).
@@ -36,8 +40,10 @@ struct Where {
 /// One series of one panel: which runs, and what is taken from them.
 struct Curve {
   std::string panel, series;
-  std::vector<std::string> set;    ///< key=value, on top of the recipe's
-  std::vector<std::string> quick;  ///< and with --quick, on top of the recipe's `quick`
+  std::vector<std::string> set;                 ///< key=value, on top of the recipe's
+  std::vector<std::string> quick;               ///< and with --quick, on top of the recipe's `quick`
+  double length = 1;                            ///< L of a pile
+  std::optional<std::vector<double>> collapse;  ///< [τ, D]: s^τ P(s) against s/L^D
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;

@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/fields.hpp"
 #include "core/estimate.hpp"
+#include "figures/extract_fields.hpp"
 #include "figures/peaks.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
@@ -287,6 +288,14 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return value(curve, runs);
     case Extract::line:
       return line(curve);
+    case Extract::map:
+      return field_map(curve, runs);
+    case Extract::spectrum:
+      return spectrum(curve, runs);
+    case Extract::avalanches:
+      return avalanche_sizes(curve, runs);
+    case Extract::mean_avalanche:
+      return mean_avalanche(curve, runs);
   }
   return {};
 }

@@ -83,7 +83,9 @@ Columns<ProfileBin> profile_columns(int dimensions) {
       .add("eta_exact", &ProfileBin::eta_exact);
   add_vector(columns, dimensions, "v", &ProfileBin::v);
   add_vector(columns, dimensions, "sigma", &ProfileBin::sigma);
-  columns.add("omega", &ProfileBin::omega).add("half_shear", &ProfileBin::half_shear);
+  columns.add("temperature", &ProfileBin::temperature)
+      .add("omega", &ProfileBin::omega)
+      .add("half_shear", &ProfileBin::half_shear);
   add_tensor(columns, dimensions, "kinetic", &ProfileBin::kinetic);
   add_tensor(columns, dimensions, "contact", &ProfileBin::contact);
   return columns.add("coordination", &ProfileBin::coordination);

@@ -49,9 +49,10 @@ struct RunContext {
 /// One instant of a run, as observers see it.
 struct Look {
   const Engine& engine;
-  std::span<const Impact> impacts;        ///< since the look before
-  std::span<const Collision> collisions;  ///< of hard grains, since the look before
-  std::span<const Parting> partings{};    ///< collected with impacts, since the look before
+  std::span<const Impact> impacts;          ///< since the look before
+  std::span<const Collision> collisions;    ///< of hard grains, since the look before
+  std::span<const Parting> partings{};      ///< collected with impacts, since the look before
+  std::span<const Avalanche> avalanches{};  ///< of piles, since the look before
 };
 
 /// Watches a run: says when it wants to look, remembers what it saw (in checkpoints, too), and writes its
@@ -66,6 +67,7 @@ class Observer {
   /// Does it want impacts, or collisions, to be collected from this step on?
   virtual bool wants_impacts(std::int64_t) const { return false; }
   virtual bool wants_collisions(std::int64_t) const { return false; }
+  virtual bool wants_avalanches(std::int64_t) const { return false; }
   /// Writes its files as of now. Averages from "steady" on count from `flow.from`.
   virtual void write(const Flow& flow) const = 0;
   virtual void save(cereal::PortableBinaryOutputArchive& archive) = 0;
@@ -86,7 +88,7 @@ class Remembering : public Observer {
 
 /// What an observer asks of the engine.
 struct Needs {
-  bool contacts = false, impacts = false;
+  bool contacts = false, impacts = false, avalanches = false;
 };
 
 /// What is long, fast and slow in a scene: defaults of outputs follow from it.

@@ -94,6 +94,11 @@ std::vector<ProfileBin> Profiles::result(double start) const {
         return std::sqrt(std::max(0.0, s.v2[k] / s.count - mean * mean));
       });
     }
+    bin.temperature = estimate([&](const Sums& s, double) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) sum += s.v2[k] / s.count - (s.v[k] / s.count) * (s.v[k] / s.count);
+      return std::max(0.0, sum) / frame_.dimensions;
+    });
     bin.omega = per_grain([](const Sums& s) { return s.omega; });
     for (std::size_t t = 0; t < 6; ++t) {
       bin.kinetic[t] = per_area([t](const Sums& s) { return s.layer.kinetic(t); });

@@ -15,6 +15,7 @@ struct ProfileBin {
   Estimate eta_exact;             ///< the same by the part of each grain that lies in the bin
   std::array<Estimate, 3> v;      ///< mean velocity of the grains in the bin
   std::array<Estimate, 3> sigma;  ///< √(⟨v²⟩ − ⟨v⟩²)
+  Estimate temperature;           ///< ⟨(v − ⟨v⟩)²⟩/D: T of a mean grain's mass 1
   Estimate omega;                 ///< mean spin, positive when rolling downhill
   Estimate half_shear;  ///< ½ ∂v_x/∂h from the bins above and below; ω of simple shear (thesis 5.2.2)
   /// Stress, positive in compression: carried by velocities that fluctuate about the bin's mean, and by

@@ -30,4 +30,8 @@ std::vector<Fact> facts(const scene::Scene& scene) {
   return list;
 }
 
+std::vector<std::string> warnings(const scene::Scene& scene) {
+  return scene.engine->warnings(scene::setting_of(scene));
+}
+
 }  // namespace chute::run

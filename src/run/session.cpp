@@ -56,13 +56,16 @@ void Session::prepare() {
   const auto any = [&](auto&& wants) { return std::ranges::any_of(observers_, wants); };
   engine_->collect_impacts(any([&](const auto& o) { return o->wants_impacts(step); }));
   engine_->collect_collisions(any([&](const auto& o) { return o->wants_collisions(step); }));
+  engine_->collect_avalanches(any([&](const auto& o) { return o->wants_avalanches(step); }));
 }
 
 void Session::look() {
   const auto impacts = engine_->take_impacts();
   const auto collisions = engine_->take_collisions();
   const auto partings = engine_->take_partings();
-  for (const auto& observer : observers_) observer->look({*engine_, impacts, collisions, partings});
+  const auto avalanches = engine_->take_avalanches();
+  for (const auto& observer : observers_)
+    observer->look({*engine_, impacts, collisions, partings, avalanches});
   prepare();
 }
 

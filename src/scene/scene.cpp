@@ -175,16 +175,26 @@ static void describe(Archive& a, Scene& scene) {
     scene.incline.gravity = scene.si() ? 9.81 : 1;
     if (!scene.si()) scene.grains.density = 6 / std::numbers::pi;
   }
+  EngineTable engine{scene.engine};
+  // A method that lays its grains itself leaves out what others need, so it is read before them.
+  if constexpr (Archive::reading) {
+    a.section("engine", engine);
+    if (scene.engine->brings_grains())
+      for (const char* table : {"grains", "contact"})
+        a.check(!a.has(table), table,
+                fmt::format("engine.method = \"{}\" lays its grains itself", scene.engine.word()));
+  }
   a.required_section("incline", scene.incline);
   if (!std::same_as<Archive, TomlWriter> || scene.domain.periodic || scene.domain.size)
     a.section("domain", scene.domain);
   BedTable bed{scene.bed};
   a.required_section("bed", bed);
   a.sections("wall", scene.walls);
-  a.required_section("grains", scene.grains);
-  a.required_section("contact", scene.contact);
-  EngineTable engine{scene.engine};
-  a.section("engine", engine);
+  if (!scene.engine->brings_grains()) {
+    a.required_section("grains", scene.grains);
+    a.required_section("contact", scene.contact);
+  }
+  if constexpr (!Archive::reading) a.section("engine", engine);
   Run run{scene.duration};
   a.required_section("run", run);
   Outputs outputs{scene.output, scene.checkpoint};
@@ -230,7 +240,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   describe(reader, scene);
   reader.finish();
   const auto setting = setting_of(scene);
-  laws::check_contact_time(scene.contact, setting.reference(), reader);
+  if (!scene.engine->brings_grains()) laws::check_contact_time(scene.contact, setting.reference(), reader);
   if (const auto wrong = refusal_of(scene)) reader.fail(wrong->key, wrong->message);
   check_step_count(scene, setting, reader);
   return scene;

@@ -52,6 +52,8 @@ void describe(Archive& a, WallSpec& wall) {
   a.value("restitution", wall.surface.restitution, unit_interval, "e_n of contacts with it");
   a.value("tangential_restitution", wall.surface.tangential_restitution, between(-1, 1),
           "β of contacts with it");
+  a.value("temperature", wall.surface.temperature, non_negative,
+          "T, an energy: grains leave it as if they came from a gas at rest with it");
   a.value("velocity", wall.velocity, any_number, "with which it moves steadily");
   a.section("oscillation", wall.oscillation);
 }

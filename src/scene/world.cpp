@@ -107,6 +107,10 @@ struct Sizes {
 
 Sizes sizes_of(const Scene& scene) {
   Sizes sizes;
+  if (scene.engine->brings_grains()) {
+    sizes.smallest = sizes.largest = 0.5;
+    return sizes;
+  }
   std::vector<double> radii, masses;
   if (scene.grains.start->brings_grains()) {
     const auto ground = scene.bed->lay(site_of(scene));
@@ -141,6 +145,12 @@ engines::Setting setting_of(const Scene& scene) {
   s.theta = scene.incline.theta();
   s.gravity = scene.incline.gravity;
   s.duration = scene.duration;
+  const auto ground = scene.bed->lay(site_of(scene));
+  const auto periods = periods_of(scene, ground);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& size = scene.domain.size;
+    s.size[k] = periods.length[k] > 0 ? periods.length[k] : size && k < size->size() ? (*size)[k] : 0;
+  }
   s.between_outputs = std::numeric_limits<double>::infinity();
   for (const auto& output : scene.output)
     if (output->wanted()) s.between_outputs = std::min(s.between_outputs, output->rhythm());
@@ -148,7 +158,6 @@ engines::Setting setting_of(const Scene& scene) {
   s.mean_diameter = sizes.mean_diameter;
   s.mean_mass = sizes.mean_mass;
   s.bead_diameter = scene.bed->diameter;
-  const auto ground = scene.bed->lay(site_of(scene));
   s.bead_spacing = ground.spacing;
   s.widest_spacing = ground.widest_spacing;
   s.grains = sizes.count;
@@ -159,6 +168,7 @@ engines::Setting setting_of(const Scene& scene) {
   if (const auto* start = scene.grains.start.as<starts::MadeStart>()) {
     constexpr double farthest = 3.5;  // standard deviations; one component in two thousand is faster
     s.launch_velocity = start->velocity;
+    s.spread = start->spread;
     s.fastest = std::hypot(start->velocity, start->velocity_up) + farthest * start->spread;
   }
 
@@ -210,6 +220,8 @@ std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers
                 "gives walls no restitution of their own"),
           lacks(offers.wall_sticking, ".tangential_restitution", own.tangential_restitution.has_value(),
                 "knows no tangential restitution"),
+          lacks(offers.wall_temperatures, ".temperature", own.temperature.has_value(),
+                "gives walls no temperature"),
           lacks(offers.static_friction, ".static_friction", own.static_friction.has_value(),
                 "knows one friction only, at rest and sliding")})
       if (wrong) return wrong;
@@ -237,15 +249,16 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
   const auto ground = scene.bed->lay(site);
   const auto periods = periods_of(scene, ground);
   if (periods.wrong) return periods.wrong;
-  const auto opening = opening_of(scene, ground, periods);
-  if (const auto wrong = scene.grains.start->misfit(opening)) return wrong;
+  const bool brings_grains = scene.engine->brings_grains();
+  if (!brings_grains)
+    if (const auto wrong = scene.grains.start->misfit(opening_of(scene, ground, periods))) return wrong;
 
   const auto setting = setting_of(scene);
   constexpr double clear =
       1.7;  // of the widest contact: with a period shorter than two of them grains touch their images
   const double needed = 2 * std::max(setting.mean_diameter, beds::widest(ground)) * clear;
   for (std::size_t k = 0; k < 3; ++k)
-    if (periods.length[k] > 0 && periods.length[k] < needed)
+    if (!brings_grains && periods.length[k] > 0 && periods.length[k] < needed)
       return Refusal{
           k == 0 && ground.length ? scene.bed->length_key() : "domain.size",
           fmt::format("a periodic {} of length {:.4g} is too short for grains of diameter {:.4g}: a grain "
@@ -277,6 +290,9 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
     const auto needs = output->needs();
     if (auto r = lacks(offers.contacts, "tells of no contacts", "output." + output.word(), needs.contacts))
       return r;
+    if (auto r =
+            lacks(offers.avalanches, "tells of no avalanches", "output." + output.word(), needs.avalanches))
+      return r;
     if (auto r = lacks(offers.impacts, "tells of no impacts", "output." + output.word(), needs.impacts))
       return r;
   }
@@ -291,7 +307,9 @@ World<D> make_world(const Scene& scene) {
   World<D> world;
   auto& grains = world.grains;
   double mean = 0;
-  const auto launches = scene.grains.start->begin(opening_of(scene, ground, periods));
+  const auto launches = scene.engine->brings_grains()
+                            ? std::vector<starts::Launch>{}
+                            : scene.grains.start->begin(opening_of(scene, ground, periods));
   grains.reserve(launches.size() + ground.beads.size());
   for (const auto& launch : launches) {
     Vec<D> place;

@@ -86,3 +86,36 @@ TEST_CASE("rough grains in a drum that turns, with a paddle that shakes, keep th
   CHECK(std::abs(e.wall_work) > 0.1);
   CHECK(std::abs(e.residual()) < 1e-9 * (std::abs(e.wall_work) + e.normal_loss));
 }
+
+// What leaves a wall of temperature T carries, by its flux, T along the normal and T/2 along every other axis: in a box
+// between two such walls a gas takes their temperature, whatever it began with.
+TEST_CASE("between walls of one temperature a gas takes it") {
+  constexpr double T = 2, side = 20;
+  event::EventSetup<2> setup;
+  setup.domain.length[0] = side;
+  setup.contact = {laws::ConstantRestitution{1}, laws::Walton{0, -1}};
+  setup.tick = 0.5;
+  for (const double up : {1.0, -1.0}) {
+    Wall<2> wall;
+    wall.point[1] = up > 0 ? 0 : side;
+    wall.normal[1] = up;
+    wall.surface.temperature = T;
+    setup.walls.push_back(wall);
+  }
+  Grains<2> grains;
+  for (int i = 0; i < 64; ++i) {
+    Random random(4, Purpose::start, static_cast<std::uint64_t>(i));
+    grains.add({{1.25 + 2.5 * (i % 8), 1.25 + 2.5 * (i / 8)}}, 0.5, 1, 0.1, true);
+    for (auto& v : grains.velocity) v.back() = 0.3 * random.normal();
+  }
+  event::EventEngine<2> engine(grains, setup);
+  engine.advance_to(200);
+  double mean = 0;
+  constexpr int looks = 400;
+  for (int k = 1; k <= looks; ++k) {
+    engine.advance_to(200 + 10 * k);
+    mean += engine.energy().translation / 64 / looks;
+  }
+  CHECK(mean == Approx(T).epsilon(0.03));
+  CHECK(engine.energy().residual() == Approx(0).margin(1e-8 * engine.energy().wall_work));
+}

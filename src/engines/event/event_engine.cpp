@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
@@ -10,6 +11,7 @@
 
 #include "common/error.hpp"
 #include "engines/hard/first_contact.hpp"
+#include "engines/hard/thermal_wall.hpp"
 #include "engines/hard/wall_flight.hpp"
 
 namespace chute::event {
@@ -230,6 +232,22 @@ laws::Collision<D> EventEngine<D>::exchange(const Vec<D>& n, const HardContact& 
   return push;
 }
 
+/// Grain i leaves a wall that heats, whose surface moves; n from the grain to the wall. Which random numbers it takes says
+/// the time, which no other hit has.
+template <int D>
+laws::Collision<D> EventEngine<D>::warm(std::size_t i, const Vec<D>& n, double T, const Vec<D>& surface,
+                                        laws::Collider<D>& a) {
+  Random random(setup_.seed, Purpose::engine, i,
+                std::bit_cast<std::uint64_t>(now_) & ((std::uint64_t{1} << 56) - 1));
+  const double m = grains_.mass[i], before = dot(a.velocity, a.velocity);
+  const Vec<D> leaves = surface + hard::thermal_velocity<D>(-1.0 * n, T, m, random);
+  laws::Collision<D> done;
+  done.impulse = m * (a.velocity - leaves);
+  a.velocity = leaves;
+  account_.wall_work += 0.5 * m * (dot(leaves, leaves) - before) + dot(done.impulse, surface);
+  return done;
+}
+
 template <int D>
 void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   ++work_.collisions;
@@ -248,8 +266,9 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   note_touch(i, j, n, train);
   laws::Collider<D> a = collider(i, n), b = collider(j, n);
   const Vec<D> surface = b.velocity;
-  const auto done =
-      exchange(n, is_wall(j) ? setup_.contact.with(wall_of(j).surface) : setup_.contact, train, a, b);
+  const auto own = is_wall(j) ? wall_of(j).surface : WallSurface{};
+  const auto done = own.temperature ? warm(i, n, *own.temperature, surface, a)
+                                    : exchange(n, setup_.contact.with(own), train, a, b);
   if (is_wall(j)) account_.wall_work -= dot(done.impulse, surface);
   if (collecting_) {
     const auto id = [&](std::size_t k) {

@@ -22,6 +22,7 @@ struct EventSetup : Surroundings<D> {
   /// t_c of the cut-off against inelastic collapse, 0: none. See EventEngine. A real contact lasts t_n of
   /// (3.3); results must not depend on t_c as long as g t_c is far below the velocities that matter.
   double contact_time = 0;
+  std::uint64_t seed = 1;  ///< of what leaves walls that heat
   double tick = 0;  ///< time between the instants that a caller can stop at; the motion does not depend on it
 };
 
@@ -138,6 +139,8 @@ class EventEngine final : public Engine {
   laws::Collider<D> collider(std::size_t i, const Vec<D>& n) const;
   laws::Collision<D> exchange(const Vec<D>& n, const HardContact& contact, const Meeting* train,
                               laws::Collider<D>& a, laws::Collider<D>& b);
+  laws::Collision<D> warm(std::size_t i, const Vec<D>& n, double T, const Vec<D>& surface,
+                          laws::Collider<D>& a);
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);

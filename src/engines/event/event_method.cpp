@@ -20,6 +20,7 @@ std::unique_ptr<Engine> made(World<D> world, const EventMethod& method, const en
   setup.contact.tangential = method.walton(setting);
   setup.contact_time = cut_off(method, setting);
   setup.tick = method.step(setting);
+  setup.seed = setting.seed;
   return std::make_unique<EventEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -33,7 +34,8 @@ Offers EventMethod::offers() const {
           .walls = true,
           .wall_shapes = true,
           .wall_surfaces = true,
-          .wall_sticking = true};
+          .wall_sticking = true,
+          .wall_temperatures = true};
 }
 
 std::vector<Fact> EventMethod::facts(const engines::Setting& s) const {

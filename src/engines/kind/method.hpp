@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,7 +23,9 @@ struct Setting {
   int dimensions = 2;
   double theta = 0, gravity = 0;
   double duration = 0;
-  double between_outputs = 0;  ///< shortest time between two rows of the series or two frames
+  std::array<double, 3> size{};  ///< of the domain along x, y, z; 0 where nothing says it
+  double spread = 0;             ///< standard deviation of a velocity component at the start
+  double between_outputs = 0;    ///< shortest time between two rows of the series or two frames
   laws::ContactSpec contact;
   /// Contacts of interest; the first is the one that contact times and restitutions of the scene are given for: two mean
   /// grains, or the only grain with the bed.
@@ -50,12 +53,16 @@ class Method : public Keys {
   using Thing = Method;
   virtual std::unique_ptr<Method> clone() const = 0;
   virtual Offers offers() const = 0;
+  /// Does it lay its grains itself? Then a scene has neither [grains] nor [contact].
+  virtual bool brings_grains() const { return false; }
   /// Why it cannot do this scene.
   virtual std::optional<Refusal> refusal(const Setting&) const { return {}; }
   /// The time between the instants at which a run can stop.
   virtual double step(const Setting& setting) const = 0;
   /// What follows from the scene, for `chute check`.
   virtual std::vector<Fact> facts(const Setting& setting) const = 0;
+  /// What a physicist should know before trusting a run, one sentence each.
+  virtual std::vector<std::string> warnings(const Setting&) const { return {}; }
   /// Seconds that a step takes, roughly, on one core.
   virtual double seconds_per_step(const Setting&) const { return 0; }
   virtual std::unique_ptr<Engine> make(World<2> world, const Setting& setting, int threads) const = 0;

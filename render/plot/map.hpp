@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "plot/marks.hpp"
+
+/// Maps: a quantity over the plane as colours, with a bar that says what they mean.
+namespace chute::plot {
+
+/// Colour of t in [0, 1]: Matplotlib's viridis, or, for both signs, the diverging map RdBu of ColorBrewer.
+Color map_color(double t, bool diverging);
+
+/// Range of the values, as the map asks for it or as they are.
+struct MapRange {
+  double low = 0, high = 1;
+};
+MapRange range_of(const Map& map);
+
+/// Edges of the map's cells along an axis, halfway between their middles.
+std::vector<double> cell_edges(const std::vector<double>& middles);
+
+/// The cells, and contours where asked for, inside the frame.
+void draw_map(DisplayList& list, const Look& look, const Frame& frame, const Map& map);
+
+/// How far the colour bar of a map reaches out to the right of its frame, whose height is given.
+double bar_width(const Look& look, const Map& map, double height);
+void draw_bar(DisplayList& list, const Look& look, const Rect& frame, const Map& map, int panel,
+              std::vector<Box>& boxes);
+
+}  // namespace chute::plot
