@@ -135,8 +135,10 @@ GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std
   if (points.x.empty()) throw InputError(path.string() + ": no points");
   frame.x = std::move(points.x), frame.y = std::move(points.y), frame.z = std::move(points.z);
   frame.arrays = std::move(points.point_arrays), frame.names = std::move(points.point_names);
-  for (const auto& [name, text] : points.field_texts)
+  for (const auto& [name, text] : points.field_texts) {
     if (name == fields::units) frame.units = text;
+    if (name == fields::clock) frame.clock = text;
+  }
   for (std::string_view name : {fields::time_value, std::string_view("TIME"), std::string_view("Time")})
     if (const auto* time = find_one(points.field_arrays, name); time && !time->values.empty() && !frame.time)
       frame.time = time->values[0];

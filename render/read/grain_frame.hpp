@@ -26,6 +26,7 @@ struct GrainFrame {
   std::filesystem::path file;
   std::optional<double> time;      ///< field data `TimeValue`, if the file says
   std::string units;               ///< "SI", "reduced", or empty if the file does not say
+  std::string clock;               ///< what the time counts, "shakes"; empty: it is a time
   int dimensions = 3;              ///< 2 if all grains lie in one plane z = const
   std::vector<double> x, y, z;     ///< centres
   std::vector<double> radius;      ///< > 0

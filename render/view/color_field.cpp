@@ -94,6 +94,7 @@ std::string color_array(std::string_view text) { return std::string(text.substr(
 ColorField find_field(std::string_view text, const read::GrainFrame& frame) {
   if (text == "none") return {};
   if (text.empty()) {
+    if (!frame.clock.empty()) return {};  // where no time passes there is no speed
     if (const auto* v = frame.find(fields::velocity.name); v && v->components == 3)
       return {std::string(fields::velocity.name), ColorField::Part::magnitude, 0};
     return {};

@@ -28,7 +28,7 @@ struct ColorField {
 /// The array that `text` names, without the component: of `velocity:x`, velocity.
 std::string color_array(std::string_view text);
 
-/// Resolves `velocity`, `velocity:x`, `force:magnitude`, `none`, or nothing (the speed, if there is one)
+/// Resolves `velocity`, `velocity:x`, `force:magnitude`, `none`, or nothing (the speed, if there is one, and where time passes)
 /// against the arrays of a frame. InputError naming the arrays there are, and the nearest, if there is none
 /// of that name.
 ColorField find_field(std::string_view text, const read::GrainFrame& frame);

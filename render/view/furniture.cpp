@@ -80,6 +80,7 @@ std::string kind_label(long long kind) { return fmt::format("${}$", kind); }
 
 std::string time_text(const Survey& survey, double time) {
   const auto number = fmt::format("{:.{}f}", time, survey.time_decimals);
+  if (!survey.clock.empty()) return fmt::format("{} {}", number, survey.clock);
   if (survey.units == "reduced") return fmt::format("$t = {}\\,\\sqrt{{d/g}}$", number);
   if (survey.units == "SI") return fmt::format("$t = {}\\,\\mathrm{{s}}$", number);
   return fmt::format("$t = {}$", number);

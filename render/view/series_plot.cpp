@@ -15,7 +15,7 @@ plot::Figure figure_of(const TimeSeries& series, const std::string& units, plot:
   figure.style = style;
   figure.legend = plot::Legend::each;
   auto& panel = figure.panels.emplace_back();
-  panel.x.label = column_title("time", units);
+  panel.x.label = column_title(series.clock, units);
   panel.x.min = series.times.front(), panel.x.max = series.times.back();
   const bool alone = series.columns.size() == 1;
   if (alone) panel.title = column_title(series.columns[0].name, units);

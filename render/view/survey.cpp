@@ -75,7 +75,7 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
   if (first_) {
     first_ = false;
     s.dimensions = frame.dimensions;
-    s.units = frame.units, s.domain = frame.domain, s.gravity = frame.gravity;
+    s.units = frame.units, s.clock = frame.clock, s.domain = frame.domain, s.gravity = frame.gravity;
     s.field = find_field(style_.color, frame);
     s.has_times = true;
     const auto& g = s.gravity;
@@ -163,9 +163,10 @@ std::string Survey::describe() const {
       "{} {} {} bounds={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
       "diameter={} speed={} force={} fixed={:d} decimals={} times={:d} categories={}",
       dimensions, up_axis, slope, text(bounds.min()) + text(bounds.max()),
-      text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity), units,
-      field.array, static_cast<int>(field.part), field.component, low, high, diverging, exceeds_low,
-      exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times, fmt::join(categories, ","));
+      text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity),
+      units + clock, field.array, static_cast<int>(field.part), field.component, low, high, diverging,
+      exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times,
+      fmt::join(categories, ","));
 }
 
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,

@@ -25,7 +25,7 @@ struct Survey {
                                ///< periodic copies included if they are drawn)
   Eigen::AlignedBox3d domain{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< as in GrainFrame
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  std::string units;
+  std::string units, clock;  ///< as in read::GrainFrame
   ColorField field;
   bool diverging = false;                          ///< values of both signs
   double low = 0, high = 1;                        ///< colour range

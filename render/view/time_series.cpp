@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/columns.hpp"
 #include "common/error.hpp"
+#include "common/fields.hpp"
 #include "common/toml_reader.hpp"
 #include "plot/legend.hpp"
 #include "read/table.hpp"
@@ -31,7 +33,10 @@ TimeSeries read_time_series(const std::filesystem::path& path, const std::vector
                                    hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint)));
     }
   TimeSeries series;
-  series.times = table.column(table.header.front());  // the clock: time, shakes, sweeps …
+  const auto clock = std::ranges::find_if(
+      fields::clocks, [&](std::string_view word) { return table.has(std::string(word)); });
+  if (clock != fields::clocks.end()) series.clock = *clock;
+  series.times = table.column(series.clock);
   if (series.times.size() < 2)
     throw InputError(
         fmt::format("{}: {} rows, a curve needs two at least", path.string(), series.times.size()));

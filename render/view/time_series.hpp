@@ -11,7 +11,8 @@ struct TimeSeries {
     std::string name;
     std::vector<double> values;  ///< one per time; NaN where not known
   };
-  std::vector<double> times;  ///< rising
+  std::string clock = "time";  ///< the column that the others are told against (fields::clocks)
+  std::vector<double> times;   ///< rising
   std::vector<Column> columns;
 
   bool empty() const { return columns.empty(); }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/keys.hpp"
+#include "core/fact.hpp"
 
 /// Beds: what grains run down. One file a kind, and a line in list.cpp.
 namespace chute::beds {
@@ -36,6 +37,8 @@ class Bed : public Keys {
   virtual std::unique_ptr<Bed> clone() const = 0;
   virtual std::optional<Refusal> misfit(const Site&) const { return {}; }
   virtual Ground lay(const Site& site) const = 0;
+  /// What can be said of it as it lies, for `chute check`.
+  virtual std::vector<Fact> facts(const Site&) const { return {}; }
   /// The key that says how long it is.
   virtual const char* length_key() const { return "bed.count"; }
 

@@ -54,8 +54,13 @@ inline constexpr Field overlap{"overlap", "\\xi", "m", "d", false};
 inline constexpr Field normal_force{"normal_force", "F_n", "N", "mg", false};
 inline constexpr Field shear_force{"shear_force", "F_s", "N", "mg", true};
 inline constexpr Field state{"state", "state", "", "", false};  ///< 0 unknown, 1 sticks, 2 slides
-inline constexpr std::array contact_fields{contact_a, contact_b, point,        normal,      branch,
-                                           overlap,   force,     normal_force, shear_force, state};
+// Of methods whose contacts are impulses in a step
+inline constexpr Field normal_impulse{"normal_impulse", "J_n", "N s", "m\\sqrt{gd}", false};
+inline constexpr Field shear_impulse{"shear_impulse", "J_s", "N s", "m\\sqrt{gd}", true};
+inline constexpr Field mobilisation{"mobilisation", "|F_s|/\\mu F_n", "", "", false};
+inline constexpr std::array contact_fields{contact_a,      contact_b,     point,        normal,      branch,
+                                           overlap,        force,         normal_force, shear_force, state,
+                                           normal_impulse, shear_impulse, mobilisation};
 
 inline constexpr std::array impact_fields{time,   gamma,        phi,     v_n,  v_t,
                                           flight, gamma_before, rolling, bead, grain};
@@ -66,6 +71,9 @@ inline constexpr Field wall{"wall", "wall", "", "", false};  ///< its number
 // Field data of every VTK file
 inline constexpr std::string_view time_value = "TimeValue";  ///< ParaView's own name
 inline constexpr std::string_view units = "units";           ///< "SI" or "reduced"
+/// What a series may be told against: a time, or what a method without one counts.
+inline constexpr std::array<std::string_view, 4> clocks{"time", "shakes", "sweeps", "updates"};
+inline constexpr std::string_view clock = "clock";  ///< what a file's time counts; only where that is no time
 inline constexpr std::string_view domain = "domain";    ///< x0 x1 y0 y1 z0 z1; equal ends: not periodic there
 inline constexpr std::string_view gravity = "gravity";  ///< gx gy gz in the incline's frame
 

@@ -26,10 +26,14 @@ struct Contact {
   double normal_force = 0;         ///< F_n, repulsion positive
   double shear_force = 0;          ///< 2D: along s = (n_y, −n_x); 3D: |F_s|
   ContactState state = ContactState::unknown;
+  double impulse_time =
+      0;  ///< of methods that give impulses: the step that they belong to, impulse = force × this
+  double mobilisation = 0;  ///< |F_s|/(μ F_n) with the μ that binds it, where the method tells
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(a, b, point, normal, branch, overlap, force, normal_force, shear_force, state);
+    archive(a, b, point, normal, branch, overlap, force, normal_force, shear_force, state, impulse_time,
+            mobilisation);
   }
 };
 

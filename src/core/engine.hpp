@@ -73,6 +73,8 @@ class Engine {
   /// Collecting costs a little; it is off until asked for. Taking empties the engine's list.
   virtual void collect_impacts(bool) {}
   virtual std::vector<Impact> take_impacts() { return {}; }
+  /// The ends of contacts, collected with their begins.
+  virtual std::vector<Parting> take_partings() { return {}; }
   /// Of hard grains: every collision, in order of time, as stresses and networks need them.
   virtual void collect_collisions(bool) {}
   virtual std::vector<Collision> take_collisions() { return {}; }

@@ -34,6 +34,14 @@ struct Impact {
   }
 };
 
+/// The end of a contact, as it was just after the last force acted; the rest is as in Impact.
+struct Parting {
+  double time;
+  std::int64_t grain, bead;
+  double v_n;            ///< > 0: they part
+  bool rolling = false;  ///< of hard grains: a collision within a train, so not the end of a bounce
+};
+
 /// What geometry tells of an impact: `n` leads from the bead to the grain, `v` is the grain's velocity
 /// relative to the bead's, `place` where they meet. In 2D v_t counts along s = (n_y, −n_x): downhill at the
 /// top of a bead.

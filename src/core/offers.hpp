@@ -11,6 +11,7 @@ struct Offers {
   bool impacts = false;            ///< the begin of each contact
   bool independent = false;        ///< grains side by side that do not feel each other
   bool walls = false;              ///< planes that stand still
+  bool only_floor = false;         ///< of these only level ones, below the grains
   bool wall_shapes = false;        ///< segments, polygons and cylinders, and all of them moving
   bool wall_surfaces = false;      ///< friction and restitution of a wall's own
   bool wall_sticking = false;      ///< tangential restitution of a wall's own

@@ -5,32 +5,46 @@
 namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
-constexpr std::array extract_words{"histogram"sv,  "return-map"sv,    "scatter"sv, "peak"sv,
-                                   "profile"sv,    "series"sv,        "map"sv,     "spectrum"sv,
-                                   "avalanches"sv, "mean-avalanche"sv};
+constexpr std::array extract_words{
+    "histogram"sv, "return-map"sv, "scatter"sv, "peak"sv, "profile"sv,  "series"sv,     "last"sv,
+    "pressure"sv,  "value"sv,      "line"sv,    "map"sv,  "spectrum"sv, "avalanches"sv, "mean-avalanche"sv};
 }  // namespace
+
+static void describe(TomlReader& a, Where& where) {
+  a.required("column", where.column);
+  a.value("absolute", where.absolute);
+  a.value("low", where.low);
+  a.value("high", where.high);
+}
 
 static void describe(TomlReader& a, Curve& curve) {
   a.value("panel", curve.panel);
   a.required("series", curve.series);
   a.value("set", curve.set);
+  a.value("quick", curve.quick);
   a.value("runs", curve.runs);
   a.check(curve.runs.empty() || curve.set.empty(), "set",
           "changes a scene; runs that are there cannot be changed");
   a.choice("extract", curve.extract, extract_words);
+  const bool line = curve.extract == Extract::line, value = curve.extract == Extract::value;
   const bool avalanches = curve.extract == Extract::avalanches;
   if (avalanches || curve.extract == Extract::mean_avalanche)
     a.required("length", curve.length, positive);
-  else
+  else if (!line)
     a.required("column", curve.column);
   if (avalanches) {
     a.value("collapse", curve.collapse);
     a.check(!curve.collapse || curve.collapse->size() == 2, "collapse", "must be [tau, D]");
   }
   const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
-  if (scatter) a.required("against", curve.against);
-  if (histogram) {
-    a.value("bins", curve.bins, between(2, 100000));
+  if (scatter) a.required("against", curve.against), a.value("absolute_x", curve.absolute_x);
+  if (value) a.required("file", curve.file);
+  if (histogram || scatter) a.value("file", curve.file), a.sections("where", curve.where);
+  if (histogram || value) a.value("scale", curve.scale);
+  if (line) a.required("slope", curve.slope);
+  if (histogram) a.value("over_sine", curve.over_sine), a.value("times_velocity", curve.times_velocity);
+  if (histogram) a.value("bins", curve.bins, between(2, 100000));
+  if (histogram || line) {
     a.value("range", curve.range);
     a.check(!curve.range || (curve.range->size() == 2 && (*curve.range)[0] < (*curve.range)[1]), "range",
             "must be [low, high] with low < high");
@@ -38,13 +52,18 @@ static void describe(TomlReader& a, Curve& curve) {
   if (histogram || scatter) a.value("fold", curve.fold, non_negative), a.value("absolute", curve.absolute);
   if (scatter || curve.extract == Extract::return_map) a.value("most", curve.most, at_least(1));
   if (curve.extract == Extract::profile) a.value("fine", curve.fine);
+  a.check(!line || curve.range, "range", "a line needs range = [low, high]");
   if (curve.extract == Extract::peak) {
     a.value("peak", curve.peak, between(0, 100));
     a.value("bandwidth", curve.bandwidth, positive);
     a.value("widest", curve.widest, positive);
+  }
+  if (curve.extract == Extract::peak || curve.extract == Extract::last ||
+      curve.extract == Extract::pressure || value) {
     a.required("vary", curve.vary);
     a.required("values", curve.values);
     a.check(!curve.values.empty(), "values", "must hold at least one value");
+    a.value("quick_count", curve.quick_count, at_least(2));
   }
   a.check(curve.series.find_first_of(",\"\n") == std::string::npos, "series",
           "must not hold commas, quotes or line breaks");
@@ -55,9 +74,14 @@ static std::vector<Curve> point_by_point(const std::vector<Curve>& curves) {
   std::vector<Curve> points;
   for (const auto& curve : curves) {
     if (!curve.vary) points.push_back(curve);
-    for (const double value : curve.values) {
+    const std::size_t all = curve.values.size();
+    const auto few = static_cast<std::size_t>(curve.quick_count.value_or(static_cast<std::int64_t>(all)));
+    for (std::size_t k = 0, taken = 0; k < all; ++k) {
       Curve point = curve;
-      point.at = value;
+      const double value = point.at = curve.values[k];
+      // The first and the last one, and evenly between them
+      point.full_only = few < all && k != taken * (all - 1) / (few - 1);
+      if (!point.full_only) ++taken;
       point.set.push_back(fmt::format("{}={}", *curve.vary, value));
       points.push_back(std::move(point));
     }

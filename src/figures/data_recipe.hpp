@@ -14,41 +14,62 @@ namespace chute::figures {
 
 /// How a run's files become rows of the figure's table.
 enum class Extract {
-  histogram,      ///< of one column of the impacts; density with integral 1, x = middle of the bin
-  return_map,     ///< a column of the impacts against the same of the impact before, grain by grain
-  scatter,        ///< one column of the impacts against another, one row per impact
-  peak,           ///< place (y) and width (y_err) of one peak of a column of the impacts, at `at` (x)
-  profile,        ///< a column of profiles.csv (of profiles_fine.csv with `fine`) against h
-  series,         ///< a column of series.csv against the clock
-  map,            ///< a field of cells against x, one series a file
-  spectrum,       ///< of that field's fluctuations in time
-  avalanches,     ///< distribution of avalanches' sizes, of a pile as long as `length`
+  histogram,   ///< of one column of the impacts; density with integral 1, x = middle of the bin
+  return_map,  ///< a column of the impacts against the same of the impact before, grain by grain
+  scatter,     ///< one column of the impacts against another, one row per impact
+  peak,        ///< place (y) and width (y_err) of one peak of a column of the impacts, at `at` (x)
+  profile,     ///< a column of profiles.csv (of profiles_fine.csv with `fine`) against h
+  series,      ///< a column of series.csv against the clock
+  last,        ///< a column of series.csv at the end of the run, against `at`
+  pressure,    ///< a column of pressure.csv against the packing fraction
+  value,       ///< the one number of a column of `file`, against the value of `vary`; averaged over the runs
+  line,        ///< a straight line through the origin, to guide the eye
+  map,         ///< a field of cells against x, one series a file
+  spectrum,    ///< of that field's fluctuations in time
+  avalanches,  ///< distribution of avalanches' sizes, of a pile as long as `length`
   mean_avalanche  ///< their mean size, against `length`
+};
+
+/// Which rows count: those whose column lies in [low, high).
+struct Where {
+  std::string column;
+  bool absolute = false;
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 };
 
 /// One series of one panel: which runs, and what is taken from them.
 struct Curve {
   std::string panel, series;
   std::vector<std::string> set;                 ///< key=value, on top of the recipe's
+  std::vector<std::string> quick;               ///< and with --quick, on top of the recipe's `quick`
   double length = 1;                            ///< L of a pile
   std::optional<std::vector<double>> collapse;  ///< [τ, D]: s^τ P(s) against s/L^D
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;
-  std::string column;                        ///< what is drawn (y; x of a histogram)
-  std::string against;                       ///< scatter: the column for x
-  std::int64_t bins = 100;                   ///< histogram
+  std::optional<std::string> file;  ///< histogram, scatter, value: a CSV file of the run; default its impacts
+  std::string column;               ///< what is drawn (y; x of a histogram)
+  std::vector<Where> where;         ///< histogram, scatter: only rows that all of these let pass
+  bool over_sine = false;           ///< histogram: divided by the sine of x, the size of a ring on a sphere
+  double scale = 1;                 ///< histogram: x times this; value: y
+  bool times_velocity = false;      ///< histogram: and x times the run's mean velocity: a time becomes a way
+  double slope = 1;                 ///< line
+  std::string against;              ///< scatter: the column for x
+  std::int64_t bins = 100;          ///< histogram
   std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
   double fold = 0;                           ///< histogram, scatter: take angles modulo this; 0: as they are
   bool absolute = false;                     ///< histogram, scatter: the column's absolute value
+  bool absolute_x = false;                   ///< scatter: the absolute value of `against`
   std::int64_t most = 20000;                 ///< return_map, scatter: no more dots than this, evenly taken
   bool fine = false;                         ///< profile: the fine bins
   std::int64_t peak = 1;                     ///< peak: which, counted from 0, the one at the least values
   double bandwidth = 4e-3;  ///< peak: of the density's kernel, in the column's unit (figures/peaks.hpp)
   double widest = std::numeric_limits<double>::infinity();  ///< peak: a wider cluster is a continuum, no peak
-  std::optional<std::string> vary;  ///< a key of the scene that changes along the curve …
-  std::vector<double> values;       ///< … and what it is, point by point
-  double at = 0;                    ///< the value that this point of the curve has; not in the file
+  std::optional<std::string> vary;          ///< a key of the scene that changes along the curve …
+  std::vector<double> values;               ///< … and what it is, point by point
+  std::optional<std::int64_t> quick_count;  ///< so many of them, evenly, are enough for a quick figure
+  bool full_only = false;                   ///< this point is not one of those; not in the file
+  double at = 0;                            ///< the value that this point of the curve has; not in the file
 };
 
 /// The data half of a figure recipe: [data] and [[data.curve]].

@@ -14,41 +14,82 @@
 #include "figures/peaks.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
+#include "run/flow.hpp"
 
 namespace chute::figures {
 namespace fs = std::filesystem;
 namespace {
 
-/// The impacts of one run, in order of time.
-class Impacts {
+/// What happened in one run, row by row: its impacts in order of time, or the rows of one of its tables.
+class Rows {
  public:
-  explicit Impacts(const fs::path& run)
-      : file_(run / "impacts.vtp"), points_(read::parse_vtk(read_file(file_), file_)) {
-    // Velocities along the line and towards it, (4.4) and (4.5) solved for v_x and v_z
-    const auto &gamma = column(fields::gamma.name), &v_n = column(fields::v_n.name),
-               &v_t = column(fields::v_t.name);
-    read::PointArray v_x{"v_x", 1, {}}, v_z{"v_z", 1, {}};
-    for (std::size_t i = 0; i < gamma.size(); ++i) {
-      v_x.values.push_back(v_n[i] * std::sin(gamma[i]) + v_t[i] * std::cos(gamma[i]));
-      v_z.values.push_back(-(v_n[i] * std::cos(gamma[i]) - v_t[i] * std::sin(gamma[i])));
+  Rows(const Curve& curve, const fs::path& run) : file_(run / curve.file.value_or("impacts.vtp")) {
+    if (curve.file)
+      read_table(curve);
+    else
+      read_impacts();
+    passes_.assign(column(curve.column).size(), true);
+    for (const auto& where : curve.where) {
+      const auto& values = column(where.column);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const double v = where.absolute ? std::abs(values[i]) : values[i];
+        if (!(v >= where.low && v < where.high)) passes_[i] = false;
+      }
     }
-    points_.point_arrays.push_back(std::move(v_x));
-    points_.point_arrays.push_back(std::move(v_z));
   }
 
-  const std::vector<double>& column(std::string_view name) const {
-    for (const auto& array : points_.point_arrays)
-      if (array.name == name && array.components == 1) return array.values;
+  const std::vector<double>& column(const std::string& name) const {
+    if (const auto known = columns_.find(name); known != columns_.end()) return known->second;
     std::vector<std::string> known;
-    for (const auto& field : fields::impact_fields) known.emplace_back(field.name);
+    for (const auto& [word, values] : columns_) known.push_back(word);
     const auto hint = nearest(name, known);
-    throw InputError(fmt::format("{}: impacts have no column {}{}", file_.string(), name,
+    throw InputError(fmt::format("{}: {} no column {}{}", file_.string(),
+                                 is_table_ ? "there is" : "impacts have", name,
                                  hint.empty() ? "" : ", did you mean " + hint + "?"));
   }
+  /// Does the curve's `where` let this row pass?
+  bool passes(std::size_t row) const { return passes_[row]; }
 
  private:
   fs::path file_;
-  read::VtkPoints points_;
+  std::map<std::string, std::vector<double>> columns_;
+  std::vector<bool> passes_;
+  bool is_table_ = false;
+
+  void read_table(const Curve& curve) {
+    is_table_ = true;
+    const auto table = read::read_table(file_);
+    std::vector<std::string> wanted{curve.column, curve.against};
+    for (const auto& where : curve.where) wanted.push_back(where.column);
+    for (const auto& name : wanted)
+      if (!name.empty()) columns_[name] = table.column(name);
+  }
+  void read_impacts() {
+    const auto points = read::parse_vtk(read_file(file_), file_);
+    for (const auto& array : points.point_arrays)
+      if (array.components == 1) columns_[array.name] = array.values;
+    // Velocities along the line and towards it, (4.4) and (4.5) solved for v_x and v_z
+    const auto &gamma = column(std::string(fields::gamma.name)), &v_n = column(std::string(fields::v_n.name)),
+               &v_t = column(std::string(fields::v_t.name));
+    std::vector<double> v_x, v_z;
+    for (std::size_t i = 0; i < gamma.size(); ++i) {
+      v_x.push_back(v_n[i] * std::sin(gamma[i]) + v_t[i] * std::cos(gamma[i]));
+      v_z.push_back(-(v_n[i] * std::cos(gamma[i]) - v_t[i] * std::sin(gamma[i])));
+    }
+    // What the same grain's impact before was, and how long ago, from onset to onset
+    const auto &time = column(std::string(fields::time.name)), &phi = column(std::string(fields::phi.name)),
+               &grain = column(std::string(fields::grain.name));
+    std::vector<double> interval, phi_before;
+    std::map<double, std::size_t> last;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      const auto before = last.find(grain[i]);
+      interval.push_back(before == last.end() ? NAN : time[i] - time[before->second]);
+      phi_before.push_back(before == last.end() ? NAN : phi[before->second]);
+      last[grain[i]] = i;
+    }
+    columns_["v_x"] = std::move(v_x), columns_["v_z"] = std::move(v_z);
+    columns_["interval"] = std::move(interval), columns_["phi_before"] = std::move(phi_before);
+  }
 };
 
 double folded(double angle, double period) {
@@ -56,37 +97,47 @@ double folded(double angle, double period) {
 }
 
 /// The curve's column, of all runs.
-std::vector<double> joined(const Curve& curve, std::span<const fs::path> runs) {
+struct Joined {
   std::vector<double> values;
+  std::vector<bool> passes;
+};
+Joined joined(const Curve& curve, std::span<const fs::path> runs) {
+  Joined all;
   for (const auto& run : runs) {
-    const Impacts impacts(run);
-    for (const double v : impacts.column(curve.column))
-      if (std::isfinite(v))
-        values.push_back(folded(curve.absolute ? std::abs(v) : v, curve.fold));  // else unknown
+    const Rows rows(curve, run);
+    const double scale = curve.scale * (curve.times_velocity ? run::read_flow(run).v_x.mean : 1);
+    const auto& column = rows.column(curve.column);
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      if (!std::isfinite(column[i])) continue;  // unknown
+      all.values.push_back(scale * folded(curve.absolute ? std::abs(column[i]) : column[i], curve.fold));
+      all.passes.push_back(rows.passes(i));
+    }
   }
-  return values;
+  return all;
 }
 
 std::vector<FigureRow> histogram(const Curve& curve, std::span<const fs::path> runs) {
-  const std::vector<double> values = joined(curve, runs);
+  const auto [values, passes] = joined(curve, runs);
   if (values.empty())
-    throw WorkError(
-        fmt::format("series {}: no impacts were recorded, so there is no histogram", curve.series));
+    throw WorkError(fmt::format("series {}: nothing was recorded, so there is no histogram", curve.series));
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double low = curve.range ? (*curve.range)[0] : *least, high = curve.range ? (*curve.range)[1] : *most;
   const auto bins = static_cast<std::size_t>(curve.bins);
   const double width = (high - low) / static_cast<double>(bins);
   std::vector<double> counts(bins);
   double inside = 0;
-  for (double v : values) {
-    if (!(v >= low && v <= high)) continue;  // nor what is not a number
-    counts[std::min(bins - 1, static_cast<std::size_t>((v - low) / width))] += 1;
-    inside += 1;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double v = values[i];
+    if (!(v >= low && v <= high)) continue;
+    inside += 1;  // so that parts of a histogram add up to all of it
+    if (passes[i]) counts[std::min(bins - 1, static_cast<std::size_t>((v - low) / width))] += 1;
   }
   std::vector<FigureRow> rows;
-  for (std::size_t b = 0; b < bins; ++b)
-    rows.push_back({curve.panel, curve.series, low + (static_cast<double>(b) + 0.5) * width,
-                    inside > 0 ? counts[b] / (inside * width) : 0});
+  for (std::size_t b = 0; b < bins; ++b) {
+    const double x = low + (static_cast<double>(b) + 0.5) * width;
+    rows.push_back({curve.panel, curve.series, x,
+                    inside > 0 ? counts[b] / (inside * width) / (curve.over_sine ? std::sin(x) : 1) : 0});
+  }
   return rows;
 }
 
@@ -101,8 +152,9 @@ void thin(std::vector<FigureRow>& rows, std::int64_t most) {
 std::vector<FigureRow> return_map(const Curve& curve, std::span<const fs::path> runs) {
   std::vector<FigureRow> rows;
   for (const auto& run : runs) {
-    const Impacts impacts(run);
-    const auto &value = impacts.column(curve.column), &grain = impacts.column(fields::grain.name);
+    const Rows impacts(curve, run);
+    const auto &value = impacts.column(curve.column),
+               &grain = impacts.column(std::string(fields::grain.name));
     std::map<double, double> last;  // of each grain
     for (std::size_t i = 0; i < value.size(); ++i) {
       if (const auto before = last.find(grain[i]); before != last.end())
@@ -117,12 +169,14 @@ std::vector<FigureRow> return_map(const Curve& curve, std::span<const fs::path> 
 std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> runs) {
   std::vector<FigureRow> rows;
   for (const auto& run : runs) {
-    const Impacts impacts(run);
+    const Rows impacts(curve, run);
     const auto &x = impacts.column(curve.against), &y = impacts.column(curve.column);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (std::isfinite(x[i]) && std::isfinite(y[i]))  // a grain's first impact knows no flight before it
-        rows.push_back(
-            {curve.panel, curve.series, folded(x[i], curve.fold), curve.absolute ? std::abs(y[i]) : y[i]});
+      if (impacts.passes(i) && std::isfinite(x[i]) &&
+          std::isfinite(y[i]))  // a grain's first impact knows no flight before it
+        rows.push_back({curve.panel, curve.series,
+                        folded(curve.absolute_x ? std::abs(x[i]) : x[i], curve.fold),
+                        curve.absolute ? std::abs(y[i]) : y[i]});
   }
   thin(rows, curve.most);
   return rows;
@@ -130,7 +184,7 @@ std::vector<FigureRow> scatter(const Curve& curve, std::span<const fs::path> run
 
 /// One peak of the distribution over all runs; no row where it is not distinguishable.
 std::vector<FigureRow> peak(const Curve& curve, std::span<const fs::path> runs) {
-  const auto peaks = find_peaks(joined(curve, runs), curve.bandwidth);
+  const auto peaks = find_peaks(joined(curve, runs).values, curve.bandwidth);
   const auto wanted = static_cast<std::size_t>(curve.peak);
   if (wanted >= peaks.size() || peaks[wanted].width > curve.widest) return {};
   return {{curve.panel, curve.series, curve.at, peaks[wanted].position, {}, peaks[wanted].width}};
@@ -172,6 +226,44 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
   return rows;
 }
 
+/// The end of the series, averaged over runs: one point of a curve along which something varies.
+std::vector<FigureRow> last(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<double> ends;
+  for (const auto& run : runs)
+    if (const double end = read::read_table(run / "series.csv").column(curve.column).back();
+        std::isfinite(end))
+      ends.push_back(end);
+  if (ends.empty()) return {};
+  const auto [mean, error] = estimate_of(ends);
+  return {{curve.panel, curve.series, curve.at, mean, {}, error}};
+}
+
+/// The one number that a table of each run has in this column, over the runs. Runs that have none do not count.
+std::vector<FigureRow> value(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<double> values;
+  std::optional<double> own;
+  for (const auto& run : runs) {
+    const auto table = read::read_table(run / *curve.file);
+    const auto column = table.column(curve.column);
+    if (column.size() != 1)
+      throw InputError(
+          fmt::format("{}: {} rows, and one is wanted", (run / *curve.file).string(), column.size()));
+    if (!std::isfinite(column[0])) continue;
+    values.push_back(curve.scale * column[0]);
+    const auto error = curve.column + "_err";
+    if (table.has(error) && std::isfinite(table.column(error)[0])) own = curve.scale * table.column(error)[0];
+  }
+  if (values.empty()) return {};
+  const auto [mean, error] = estimate_of(values);
+  return {{curve.panel, curve.series, curve.at, mean, {}, error ? error : own}};
+}
+
+std::vector<FigureRow> line(const Curve& curve) {
+  std::vector<FigureRow> rows;
+  for (const double x : *curve.range) rows.push_back({curve.panel, curve.series, x, curve.slope * x});
+  return rows;
+}
+
 }  // namespace
 
 std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> runs) {
@@ -188,6 +280,14 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return averaged(curve, runs, curve.fine ? "profiles_fine.csv" : "profiles.csv", "h");
     case Extract::series:
       return averaged(curve, runs, "series.csv");
+    case Extract::last:
+      return last(curve, runs);
+    case Extract::pressure:
+      return averaged(curve, runs, "pressure.csv");
+    case Extract::value:
+      return value(curve, runs);
+    case Extract::line:
+      return line(curve);
     case Extract::map:
       return field_map(curve, runs);
     case Extract::spectrum:
@@ -198,6 +298,13 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return mean_avalanche(curve, runs);
   }
   return {};
+}
+
+std::optional<double> left_out(const Curve& curve, std::span<const fs::path> runs) {
+  if (curve.where.empty()) return {};
+  const auto passes = joined(curve, runs).passes;
+  const auto passing = static_cast<double>(std::count(passes.begin(), passes.end(), true));
+  return passes.empty() ? 0 : 1 - passing / static_cast<double>(passes.size());
 }
 
 }  // namespace chute::figures

@@ -35,10 +35,13 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
   std::map<std::string, std::size_t> known;
   for (const auto& curve : recipe.curves) {
     auto& needed = plan.of_curve.emplace_back();
+    if (quick && curve.full_only) continue;
     for (std::int64_t seed = 1; seed <= (quick ? recipe.quick_seeds : recipe.seeds); ++seed) {
       auto settings = recipe.set;
       settings.insert(settings.end(), curve.set.begin(), curve.set.end());
-      if (quick) settings.insert(settings.end(), recipe.quick.begin(), recipe.quick.end());
+      if (quick)
+        for (const auto* cheaper : {&recipe.quick, &curve.quick})
+          settings.insert(settings.end(), cheaper->begin(), cheaper->end());
       settings.push_back(fmt::format("seed={}", seed));
       auto scene = scene::read_scene(scene_file, settings);
       scene.drop_output("frames");  // a figure needs none
@@ -122,7 +125,12 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     for (const auto k : plan.of_curve[c]) runs.push_back(plan.jobs[k].directory);
     if (recipe.curves[c].extract == Extract::profile && (c == 0 || plan.of_curve[c] != plan.of_curve[c - 1]))
       table.comments.push_back(recipe.curves[c].series + ": " + verdicts_of(runs));
+    if (context.quick && recipe.curves[c].full_only) continue;
     const auto rows = extract(recipe.curves[c], runs);
+    if (const auto part = left_out(recipe.curves[c], runs);
+        part && recipe.curves[c].extract == Extract::scatter)
+      table.comments.push_back(fmt::format("{} {}: {:.1f} % of the rows are left out", recipe.curves[c].panel,
+                                           recipe.curves[c].series, 100 * *part));
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }
   if (!recipe.sweeps.empty()) {

@@ -57,6 +57,7 @@ class Sweeps {
     point.in_B = sweep::phase_of(launches, curve.alike) == sweep::Phase::B;
     if (curve.column == Column::v_x) {
       point.y = slow.median;
+      if (const auto error = over_seeds(base, curve, progress)) point.y->error = error;
     } else if (slow.count(measure::Verdict::steady) > 0) {
       const double R =
           curve.column == Column::surface_speed ? scene::setting_of(base.scene({})).mean_diameter / 2 : 1;
@@ -69,6 +70,18 @@ class Sweeps {
  private:
   const SweepSetting& setting_;
   sweep::PointStore store_;
+
+  /// The error of the median from one seed, such as one bed, to the next; empty if there is only one.
+  std::optional<double> over_seeds(const sweep::Base& base, const SweepCurve& curve,
+                                   const Report& progress) const {
+    if (setting_.seeds < 2 || !curve.velocities.empty()) return {};
+    std::vector<double> medians;
+    for (std::int64_t seed = 1; seed <= setting_.seeds; ++seed) {
+      const auto followed = store_.get(base.scene({fmt::format("seed={}", seed)}), progress);
+      if (const double v = sweep::tally(followed.starts).median.mean; std::isfinite(v)) medians.push_back(v);
+    }
+    return estimate_of(medians).error;
+  }
 };
 
 /// v_0 of (4.20) for the named series of a panel. WorkError if fewer than three of its points lie in B.
@@ -95,6 +108,9 @@ void describe(TomlReader& a, SweepCurve& curve) {
   a.value("velocities", curve.velocities);
   a.value("alike", curve.alike, Range{0, 1, true, true});
   a.section("boundary", curve.boundary);
+  a.value("scale", curve.scale, positive);
+  a.value("along_sine", curve.along_sine);
+  a.check(!curve.along_sine || is_boundary(curve), "along_sine", "is of boundaries: AB, BC");
   a.value("above_offset", curve.above_offset);
   a.value("offset_of", curve.offset_of);
   a.check(is_boundary(curve) == curve.boundary.has_value(), "boundary",
@@ -136,7 +152,14 @@ FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetti
         const double above = y.mean - v_0;
         y = {above * above, y.error ? std::optional(2 * std::abs(above) * *y.error) : std::nullopt};
       }
-      table.rows.push_back({curve.panel, curve.series, p.x, y.mean, {}, y.error});
+      y.mean *= curve.scale;
+      if (y.error) *y.error *= curve.scale;
+      if (curve.along_sine) {
+        const auto error = y.error ? std::optional(*y.error * std::cos(y.mean)) : std::nullopt;
+        table.rows.push_back({curve.panel, curve.series, std::sin(y.mean), p.x, error, {}});
+      } else {
+        table.rows.push_back({curve.panel, curve.series, p.x, y.mean, {}, y.error});
+      }
     }
   }
   return table;

@@ -16,7 +16,7 @@ struct SweepCurve {
   std::vector<std::string> set;  ///< key=value, on top of the recipe's
   sweep::Axis x;                 ///< the parameter that is x
   enum class Column {
-    v_x,            ///< median of the mean velocities of the starts that still move
+    v_x,            ///< median of the mean velocities of the starts that still move; its error over the seeds
     omega,          ///< mean spin of the steady starts, positive when rolling downhill
     surface_speed,  ///< that times the mean radius, ωR
     AB,             ///< phase boundary as an angle, rad
@@ -25,6 +25,8 @@ struct SweepCurve {
   std::vector<double> velocities;               ///< launches, slowest first: the others tell where B ends
   double alike = 0.05;                          ///< how far their medians may lie apart in B
   std::optional<sweep::BoundarySpec> boundary;  ///< AB, BC: along what, of incline.sin or incline.angle
+  double scale = 1;                      ///< y times this: a mean in other units, or scaled by a power of Φ
+  bool along_sine = false;               ///< AB, BC: drawn as Φ over sin θ, the thesis's way
   bool above_offset = false;             ///< v_x: (v_x − v_0)², with v_0 from a fit of (4.20) in phase B
   std::optional<std::string> offset_of;  ///< v_0 of that series instead of the own one's
 };

@@ -14,6 +14,8 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
+
 #include "common/error.hpp"
 #include "common/fields.hpp"
 
@@ -40,11 +42,16 @@ void add_numbers(vtkPolyData* data, std::string_view name, const std::array<doub
   data->GetFieldData()->AddArray(array);
 }
 
+void add_text(vtkPolyData* data, std::string_view name, const std::string& text) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(std::string(name).c_str());
+  array->InsertNextValue(text);
+  data->GetFieldData()->AddArray(array);
+}
+
 void add_facts(vtkPolyData* data, const RunFacts& facts) {
-  vtkNew<vtkStringArray> units;
-  units->SetName(std::string(fields::units).c_str());
-  units->InsertNextValue(facts.units);
-  data->GetFieldData()->AddArray(units);
+  add_text(data, fields::units, facts.units);
+  if (facts.clock != "time") add_text(data, fields::clock, facts.clock);
   add_numbers(data, fields::domain, facts.domain);
   add_numbers(data, fields::gravity, facts.gravity);
 }
@@ -179,6 +186,16 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
   number(fields::shear_force, &Contact::shear_force);
   add_array<vtkIntArray>(to, fields::state.name, n, 1,
                          [&](std::size_t i, int) { return static_cast<int>(contacts[i].state); });
+  if (std::ranges::any_of(contacts, [](const Contact& c) { return c.impulse_time > 0; })) {
+    const auto impulse = [&](const fields::Field& field, double Contact::*force) {
+      add_array<vtkDoubleArray>(to, field.name, n, 1, [&](std::size_t i, int) {
+        return contacts[i].impulse_time * contacts[i].*force;
+      });
+    };
+    impulse(fields::normal_impulse, &Contact::normal_force);
+    impulse(fields::shear_impulse, &Contact::shear_force);
+    number(fields::mobilisation, &Contact::mobilisation);
+  }
   add_numbers(data, fields::time_value, std::array{grains.time});
   add_facts(data, facts);
   return bytes(data);

@@ -51,6 +51,8 @@ class ContactFacts {
 
   /// What the tangential law comes to, for that impact and that time step.
   void shear(double dt) {
+    ContactLaws contact = contact_;
+    know_time_step(contact, dt);
     std::visit(
         [&]<class Law>(const Law& law) {
           if constexpr (requires { law.effective_viscosity(pair_); })
@@ -61,7 +63,7 @@ class ContactFacts {
             half_period(
                 law.stiffness_at(impact_.deepest, pair_), requires { Law::hertz_spring; });
         },
-        contact_.shear);
+        contact.shear);
     if (const auto* saw = std::get_if<SawTooth>(&contact_.shear))
       add("zeta_0/dt", saw->length / dt, speed(),
           "slip that crosses a tooth in one step; slips have to be much slower");

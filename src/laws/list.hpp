@@ -117,6 +117,15 @@ inline double* friction(Shear& shear) {
       shear);
 }
 
+/// Tells laws that integrate a part of their force themselves how long a time step is.
+inline void know_time_step(ContactLaws& contact, double time_step) {
+  std::visit(
+      [&](auto& law) {
+        if constexpr (requires { law.time_step; }) law.time_step = time_step;
+      },
+      contact.shear);
+}
+
 /// Asks for that restitution in place of whatever damping the keys have; false if the law takes none.
 inline bool set_restitution(NormalKeys& normal, double e_n) {
   return std::visit(

@@ -83,7 +83,7 @@ class Blocks {
 template <class Sums, class MeanOf>
 Estimate estimate_bin(const std::vector<typename Blocks<Sums>::Part>& stretches, std::size_t bin,
                       const MeanOf& mean_of) {
-  Sums total;
+  Sums total{};
   double samples = 0;
   std::vector<double> values;
   for (const auto& stretch : stretches) {

@@ -34,6 +34,7 @@ struct RunContext {
   double gravity = 0;
   bool independent = false;  ///< grains do not feel each other: each is a run of its own
   double time_step = 0, duration = 0;
+  double contact_time = 0;          ///< t_n of the contact that the scene is about
   std::filesystem::path directory;  ///< empty: nothing is written
 
   Schedule schedule(double from, double every) const { return {from, every, time_step}; }
@@ -50,6 +51,7 @@ struct Look {
   const Engine& engine;
   std::span<const Impact> impacts;          ///< since the look before
   std::span<const Collision> collisions;    ///< of hard grains, since the look before
+  std::span<const Parting> partings{};      ///< collected with impacts, since the look before
   std::span<const Avalanche> avalanches{};  ///< of piles, since the look before
 };
 

@@ -21,6 +21,8 @@ std::vector<Fact> facts(const scene::Scene& scene) {
     list.push_back({"gamma_max", std::asin(std::min(1.0, (1 + gap) / (1 + d / d_bed))), "rad",
                     "largest impact angle on the bed, (4.21)"});
   }
+  const auto of_bed = scene.bed->facts({scene.dimensions, static_cast<std::uint64_t>(scene.seed)});
+  list.insert(list.end(), of_bed.begin(), of_bed.end());
   const double steps = std::ceil(scene.duration / scene.engine->step(setting));
   list.push_back({"steps", steps, "", "steps of the run"});
   if (const double cost = scene.engine->seconds_per_step(setting); cost > 0)

@@ -33,10 +33,13 @@ Session::Session(const scene::Scene& scene, int threads, const std::filesystem::
   run_.made_by =
       fmt::format("units: {}; seed {}; chute {} ({})", units_of(scene), scene.seed, version, commit);
   run_.offers = scene.engine->offers();
+  run_.facts.clock = run_.offers.clock;
   run_.gravity = scene.incline.gravity;
   run_.independent = scene.grains.independent;
   run_.time_step = engine_->time_step();
   run_.duration = scene.duration;
+  const auto setting = scene::setting_of(scene);
+  run_.contact_time = setting.contact.impact(setting.reference()).contact_time;
   run_.directory = directory;
   last_step_ = std::max<std::int64_t>(1, std::llround(scene.duration / run_.time_step));
   for (const auto& output : scene.output) {
@@ -59,8 +62,10 @@ void Session::prepare() {
 void Session::look() {
   const auto impacts = engine_->take_impacts();
   const auto collisions = engine_->take_collisions();
+  const auto partings = engine_->take_partings();
   const auto avalanches = engine_->take_avalanches();
-  for (const auto& observer : observers_) observer->look({*engine_, impacts, collisions, avalanches});
+  for (const auto& observer : observers_)
+    observer->look({*engine_, impacts, collisions, partings, avalanches});
   prepare();
 }
 

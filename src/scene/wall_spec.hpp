@@ -22,6 +22,10 @@ struct WallSpec {
   std::optional<Oscillation> oscillation;
 
   bool is_plane() const { return normal.has_value(); }
+  /// A plane that bears what falls on it straight down.
+  bool is_level() const {
+    return normal && normal->back() > 0 && (*normal)[0] == 0 && (*normal)[normal->size() - 2] == 0;
+  }
   bool is_segment() const { return from.has_value() || to.has_value(); }
   bool moves() const { return velocity || oscillation || spin; }
 };

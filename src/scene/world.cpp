@@ -213,6 +213,7 @@ std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers
          {lacks(offers.walls, "", true, "knows no walls"),
           lacks(offers.wall_shapes, "", !wall.is_plane() || wall.moves(),
                 "knows only planes that stand still"),
+          lacks(!offers.only_floor, ".normal", !wall.is_level(), "knows no walls but a level floor"),
           lacks(offers.wall_surfaces, ".friction", own.friction.has_value(),
                 "gives walls no friction of their own"),
           lacks(offers.wall_surfaces, ".restitution", own.restitution.has_value(),

@@ -1,4 +1,5 @@
 #include "starts/from_file.hpp"
+#include "starts/scattered.hpp"
 #include "starts/square.hpp"
 
 namespace chute::starts {
@@ -10,7 +11,8 @@ bool is_lattice(const std::string& word) { return word == Square::word || word =
 }  // namespace
 
 Catalogue<Start>& list() {
-  static Catalogue<Start> all{kind_of<Start, Square>(), kind_of<Start, Alone>(), kind_of<Start, FromFile>()};
+  static Catalogue<Start> all{kind_of<Start, Square>(), kind_of<Start, Alone>(), kind_of<Start, FromFile>(),
+                              kind_of<Start, Scattered>()};
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "theory/hard_gas.hpp"
 #include "theory/rolling.hpp"
 #include "theory/stochastic.hpp"
 
@@ -127,13 +128,27 @@ FigureTable compute_fig_4_04(const FigureContext& context) {
   return table;
 }
 
+FigureTable compute_theory_m_08(const FigureContext& context) {
+  FigureTable table;
+  table.comments = {"x: packing fraction", "y: Z = beta P/n",
+                    "virial: ten coefficients of Clisby & McCoy (2006) and a geometric tail"};
+  const int points = context.quick ? 30 : 120;
+  const auto add = [&](const char* panel, const char* series, double largest, double (*z)(double)) {
+    for (int k = 0; k <= points; ++k)
+      table.rows.push_back({panel, series, largest * k / points, z(largest * k / points)});
+  };
+  add("a", "virial", 0.62, virial_discs);
+  add("a", "henderson", 0.62, henderson);
+  add("b", "carnahan-starling", 0.5, carnahan_starling);
+  return table;
+}
+
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures() {
   static const std::map<std::string, std::function<FigureTable(const FigureContext&)>> all{
-      {"fig-4-04", compute_fig_4_04},
-      {"fig-4-19", compute_fig_4_19},
-      {"theory-4-17", compute_theory_4_17},
-      {"theory-4-18", compute_theory_4_18},
-      {"theory-4-20", compute_theory_4_20}};
+      {"fig-4-04", compute_fig_4_04},       {"fig-4-19", compute_fig_4_19},
+      {"fig-4-31", compute_fig_4_31},       {"theory-4-17", compute_theory_4_17},
+      {"theory-4-18", compute_theory_4_18}, {"theory-4-20", compute_theory_4_20},
+      {"theory-m-08", compute_theory_m_08}};
   return all;
 }
 

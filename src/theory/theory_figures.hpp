@@ -13,11 +13,13 @@ using figures::FigureTable;
 
 FigureTable compute_fig_4_04(const FigureContext& context);     ///< the stochastic model, <v_x>(sin θ)
 FigureTable compute_fig_4_19(const FigureContext& context);     ///< v̄_x, exact and linear
+FigureTable compute_fig_4_31(const FigureContext& context);     ///< what the impact angles γ and φ are
 FigureTable compute_theory_4_17(const FigureContext& context);  ///< v̄_x(sin θ), ε = 0
 FigureTable compute_theory_4_18(const FigureContext& context);  ///< v̄_x(sin θ), mean gap 0.1
 FigureTable compute_theory_4_20(const FigureContext& context);  ///< θ_AB(Φ)
+FigureTable compute_theory_m_08(const FigureContext& context);  ///< Z(φ) of hard discs and spheres
 
-/// All of them, by id: `fig-4-04`, `fig-4-19`; `theory-4-17`, `theory-4-18`, `theory-4-20` are parts of
+/// All of them, by id: `fig-4-04`, `fig-4-19`, `fig-4-31`; `theory-4-17`, `theory-4-18`, `theory-4-20` are parts of
 /// figures.
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures();
 

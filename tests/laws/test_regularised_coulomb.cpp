@@ -49,3 +49,23 @@ TEST_CASE("without friction there is no tangential force") {
   CHECK(Frictionless{}(Vec<1>{{3}}, 4, 1)[0] == 0);
   CHECK(Frictionless{}(Vec<3>{{3, 2, 1}}, 4, 1) == Vec<3>{});
 }
+
+// m_eff/(7/2 γ_s) is the time in which a slip dies away; over n steps implicitly, no less than n steps.
+TEST_CASE("a stiff viscosity takes the slip away within the relaxation steps, a soft one as ever") {
+  constexpr double dt = 1e-6, m = 5e-4, far_below_coulomb = 1e9;
+  ContactLaws contact{SpringDashpot{}, RegularisedCoulomb{1000, 0.13, MassScaling::none, 12.0}};
+  know_time_step(contact, dt);
+  const auto& stiff = std::get<RegularisedCoulomb>(contact.shear);
+  const double rate = -3.5 * stiff(Vec<1>{{1}}, far_below_coulomb, m)[0] / m;
+  CHECK(rate * dt < 1.0 / 12);
+  CHECK(rate * dt > 0.9 / 12);
+  CHECK(stiff(Vec<1>{{1}}, 2, m)[0] == Approx(-0.26));  // the limit is Coulomb's
+  auto soft = stiff, plain = stiff;
+  soft.viscosity = plain.viscosity = 1e-3, plain.relaxation_steps.reset();
+  CHECK(soft(Vec<1>{{1}}, 2, m)[0] == Approx(plain(Vec<1>{{1}}, 2, m)[0]).epsilon(1e-3));
+  // Without the option nothing changes, to the last bit, whether the step is known or not.
+  auto unknown = plain;
+  unknown.time_step = 0;
+  for (const double slip : {1e-3, 0.1, 7.0})
+    CHECK(plain(Vec<1>{{slip}}, 2, m)[0] == unknown(Vec<1>{{slip}}, 2, m)[0]);
+}

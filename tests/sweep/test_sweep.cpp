@@ -39,28 +39,31 @@ bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, i
 }  // namespace
 
 TEST_CASE("independent grains move as each would alone, to the last bit") {
-  auto scene =
-      scene::read_scene(ball, {"sweep=", "grains.count=5", "run.duration=0.5", "grains.start.spread=0.1"});
-  const auto together = test::make_engine(scene);
-  const auto start = scene::make_world<2>(scene);
-  together.engine->advance_to(20000);
-  const auto view = together.engine->grains();
-  for (std::size_t i = 0; i < 5; ++i) {
-    auto alone = scene;
-    alone.grains.count = 1;
-    auto* begin = alone.grains.start.as<starts::Alone>();
-    begin->spread = 0;
-    begin->x = start.grains.position[0][i];
-    begin->velocity = start.grains.velocity[0][i];
-    begin->velocity_up = start.grains.velocity[1][i];
-    const auto one = test::make_engine(alone);
-    REQUIRE(one.engine->time_step() == together.engine->time_step());
-    one.engine->advance_to(20000);
-    const auto v = one.engine->grains();
-    CHECK(v.position[0][0] == view.position[0][i]);
-    CHECK(v.position[1][0] == view.position[1][i]);
-    CHECK(v.velocity[0][0] == view.velocity[0][i]);
-    CHECK(v.spin[0][0] == view.spin[0][i]);
+  for (const char* method : {"soft", "event"}) {
+    CAPTURE(method);
+    auto scene = scene::read_scene(ball, {"sweep=", "grains.count=5", "run.duration=0.5",
+                                          "grains.start.spread=0.1", std::string("engine.method=") + method});
+    const auto together = test::make_engine(scene);
+    const auto start = scene::make_world<2>(scene);
+    together.engine->advance_to(20000);
+    const auto view = together.engine->grains();
+    for (std::size_t i = 0; i < 5; ++i) {
+      auto alone = scene;
+      alone.grains.count = 1;
+      auto* begin = alone.grains.start.as<starts::Alone>();
+      begin->spread = 0;
+      begin->x = start.grains.position[0][i];
+      begin->velocity = start.grains.velocity[0][i];
+      begin->velocity_up = start.grains.velocity[1][i];
+      const auto one = test::make_engine(alone);
+      REQUIRE(one.engine->time_step() == together.engine->time_step());
+      one.engine->advance_to(20000);
+      const auto v = one.engine->grains();
+      CHECK(v.position[0][0] == view.position[0][i]);
+      CHECK(v.position[1][0] == view.position[1][i]);
+      CHECK(v.velocity[0][0] == view.velocity[0][i]);
+      CHECK(v.spin[0][0] == view.spin[0][i]);
+    }
   }
 }
 

@@ -61,7 +61,8 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
     }
     Flight<D>::wrap(f.place, f.wraps, setup_.domain);
   }
-  reach_ = widest_moving + (moving > 1 ? std::max(widest_moving, widest_fixed) : widest_fixed);
+  reach_ = widest_moving +
+           (moving > 1 && !grains_.independent ? std::max(widest_moving, widest_fixed) : widest_fixed);
   for (int k = 0; k < D; ++k) {
     if (setup_.domain.length[k] < 2 * reach_)
       throw WorkError(
@@ -92,6 +93,7 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
                                     flights_[i].radius - height));
   for (std::size_t i = 0; i < moving; ++i)
     cells_.neighbours(i, nullptr, [&](std::size_t j, const auto&) {
+      if (!feels(j)) return;
       const double distance = norm(setup_.domain.way(flights_[i].place, flights_[j].place));
       const double reach = flights_[i].radius + flights_[j].radius;
       if (distance < reach * (1 - touching))
@@ -138,6 +140,7 @@ void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* cros
   if (!crossed) first = {};
   candidates_.clear();
   cells_.neighbours(i, crossed, [&](std::size_t j, const std::array<int, D>& shift) {
+    if (!feels(j)) return;
     candidates_.push_back({j, shift});
     if (j == likely) std::swap(candidates_.front(), candidates_.back());
   });
@@ -267,6 +270,13 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   const auto done = own.temperature ? warm(i, n, *own.temperature, surface, a)
                                     : exchange(n, setup_.contact.with(own), train, a, b);
   if (is_wall(j)) account_.wall_work -= dot(done.impulse, surface);
+  if (collecting_) {
+    const auto id = [&](std::size_t k) {
+      return is_wall(k) ? wall_id(k - grains_.size()) : static_cast<std::int64_t>(k);
+    };
+    partings_.push_back(
+        {now_, id(both ? j : i), id(both ? i : j), dot(b.velocity - a.velocity, n), train != nullptr});
+  }
   meetings_.note(i, j, now_, as_file_vector(done.impulse));
   if (collecting_collisions_) collisions_.push_back({told(i, j, flights_[i].place, way, done.impulse), now_});
   account_.normal_loss += done.normal_loss;

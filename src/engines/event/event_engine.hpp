@@ -60,6 +60,7 @@ class EventEngine final : public Engine {
   std::vector<Contact> contacts() const override;
   void collect_impacts(bool on) override { collecting_ = on; }
   std::vector<Impact> take_impacts() override;
+  std::vector<Parting> take_partings() override { return std::exchange(partings_, {}); }
   void collect_collisions(bool on) override { collecting_collisions_ = on; }
   std::vector<Collision> take_collisions() override { return std::exchange(collisions_, {}); }
   void save(std::ostream& out) const override;
@@ -109,6 +110,7 @@ class EventEngine final : public Engine {
   std::int64_t step_ = 0, next_look_ = 0;
   bool collecting_ = false, collecting_collisions_ = false;
   std::vector<Impact> impacts_;
+  std::vector<Parting> partings_;
   std::vector<Collision> collisions_;
   Work work_;
 
@@ -120,6 +122,8 @@ class EventEngine final : public Engine {
 
   double contact_with(std::size_t i, const Candidate& candidate, double limit);
   double contact_with_wall(std::size_t i, std::size_t wall, double limit) const;
+  /// Can a moving grain collide with j?
+  bool feels(std::size_t j) const { return !grains_.independent || j >= grains_.moving; }
   bool is_wall(std::size_t partner) const { return partner >= grains_.size(); }
   const Wall<D>& wall_of(std::size_t partner) const { return setup_.walls[partner - grains_.size()]; }
   Vec<D> way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to, double t) const;

@@ -30,6 +30,7 @@ Offers EventMethod::offers() const {
   return {.contacts = true,
           .collisions = true,
           .impacts = true,
+          .independent = true,
           .walls = true,
           .wall_shapes = true,
           .wall_surfaces = true,

@@ -33,6 +33,8 @@ template <int D>
 HybridEngine<D>::HybridEngine(Grains<D> grains, const HybridSetup<D>& setup)
     : setup_(setup),
       grains_(std::move(grains)),
+      gravity_(setup.gravity),
+      from_(grains_.moving),
       one_step_(setup_, grains_),
       usual_(grains_, setup, usual_margin),
       fast_(grains_, setup, fast_margin),
@@ -73,6 +75,7 @@ void HybridEngine<D>::advance(std::int64_t step) {
 template <int D>
 void HybridEngine<D>::take_step() {
   const double end = static_cast<double>(step_ + 1) * setup_.time_step;
+  if (setup_.tilt) tilt(end - setup_.time_step / 2);
   const double farthest = fly(end);
   find_pairs(farthest > 0.5 * usual_margin * setup_.diameter ? fast_ : usual_, end);
   const auto& outcome = one_step_.collide(flights_, pairs_, end, *team_);
@@ -80,7 +83,31 @@ void HybridEngine<D>::take_step() {
   put_off_ += outcome.put_off;
   for (std::size_t i = 0; i < grains_.moving; ++i) flights_[i].move_to(end, setup_.domain);
   push_apart(end);
+  if (setup_.tilt) note_work();
   ++step_;
+}
+
+/// Gravity as it is in this step, and from where it works.
+template <int D>
+void HybridEngine<D>::tilt(double middle) {
+  gravity_ = setup_.gravity_at(middle);
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    flights_[i].gravity = gravity_;
+    from_[i] = unwrapped(i);
+  }
+}
+template <int D>
+void HybridEngine<D>::note_work() {
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    account_.gravity_work += grains_.mass[i] * dot(gravity_, unwrapped(i) - from_[i]);
+}
+template <int D>
+Vec<D> HybridEngine<D>::unwrapped(std::size_t i) const {
+  Vec<D> place = flights_[i].place;
+  for (int k = 0; k < D; ++k)
+    if (setup_.domain.periodic(k))
+      place[k] += flights_[i].wraps[static_cast<std::size_t>(k)] * setup_.domain.length[k];
+  return place;
 }
 
 /// How far the farthest grain would fly in the step, if nothing stopped it.
@@ -166,7 +193,7 @@ void HybridEngine<D>::note_touch(const Hit<D>& hit, const Vec<D>& n, const hard:
 template <int D>
 void HybridEngine<D>::move_apart(std::size_t i, const Vec<D>& way) {
   flights_[i].place = flights_[i].place + way;
-  account_.projection_work -= grains_.mass[i] * dot(setup_.gravity, way);
+  account_.projection_work -= grains_.mass[i] * dot(gravity_, way);
 }
 
 /// Takes a part of what overlaps: places only, by inverse masses, one contact after the other in their order.
@@ -239,7 +266,7 @@ GrainsView HybridEngine<D>::grains() const {
 template <int D>
 EnergyAccount HybridEngine<D>::energy() const {
   EnergyAccount e = account_;
-  e.add_motion(grains(), setup_.gravity, start_place_);
+  e.add_motion(grains(), setup_.tilt ? Vec<D>{} : setup_.gravity, start_place_);
   return e;
 }
 
@@ -274,8 +301,8 @@ void HybridEngine<D>::transfer(Archive& archive, Self& self) {
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
   }
   auto& a = self.account_;
-  archive(self.start_place_, self.meetings_, self.touches_, a.start, a.normal_loss, a.shear_loss, a.wall_work,
-          a.projection_work, self.step_, self.hits_, self.put_off_, self.deepest_);
+  archive(self.start_place_, self.meetings_, self.touches_, a.start, a.gravity_work, a.normal_loss,
+          a.shear_loss, a.wall_work, a.projection_work, self.step_, self.hits_, self.put_off_, self.deepest_);
 }
 
 template <int D>

@@ -54,6 +54,8 @@ class HybridEngine final : public Engine {
 
   HybridSetup<D> setup_;
   Grains<D> grains_;                      // as of the last step, for those who look
+  Vec<D> gravity_;                        // in this step
+  std::vector<Vec<D>> from_;              // places at the step's begin, where the incline tilts
   std::vector<hard::Flight<D>> flights_;  // the truth
   Step<D> one_step_;
   Nearby usual_, fast_;
@@ -75,6 +77,9 @@ class HybridEngine final : public Engine {
   double fly(double end);
   void find_pairs(Nearby& nearby, double end);
   void take_step();
+  void tilt(double middle);
+  void note_work();
+  Vec<D> unwrapped(std::size_t i) const;
   void account(const Hit<D>& hit);
   void note_touch(const Hit<D>& hit, const Vec<D>& n, const hard::Meeting* train);
   void push_apart(double end);

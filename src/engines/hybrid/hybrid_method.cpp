@@ -39,6 +39,7 @@ Offers HybridMethod::offers() const {
           .wall_shapes = true,
           .wall_surfaces = true,
           .wall_sticking = true,
+          .tilting = true,
           .threads = true};
 }
 

@@ -14,13 +14,21 @@
 #include "core/not_a_number.hpp"
 
 namespace chute::soft {
+namespace {
+
+laws::ContactLaws laws_for(laws::ContactLaws laws, double time_step) {
+  laws::know_time_step(laws, time_step);
+  return laws;
+}
+
+}  // namespace
 
 template <int D>
 SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
     : setup_(setup),
       grains_(std::move(grains)),
       list_(setup.domain, setup.skins, setup.search, setup.isa),
-      stages_(setup.domain, setup.laws, setup.isa,
+      stages_(setup.domain, laws_for(setup.laws, setup.time_step), setup.isa,
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
       walls_(setup.surroundings(), setup.laws, setup.wall_laws,
@@ -191,7 +199,10 @@ void SoftEngine<D>::find_impacts() {
   auto now = touched_.begin();
   for (const auto& pair : touched_before_) {
     while (now != touched_.end() && *now < pair) ++now;
-    if (now == touched_.end() || *now != pair) touches_.end(time(), id(pair.first), id(pair.second));
+    if (now != touched_.end() && *now == pair) continue;
+    touches_.end(time(), id(pair.first), id(pair.second));
+    const Impact ended = impact(id(pair.first), id(pair.second));
+    partings_.push_back({ended.time, ended.grain, bead_id(ended.bead), ended.v_n});
   }
   auto old = touched_before_.begin();
   for (const auto& pair : touched_) {
@@ -199,7 +210,7 @@ void SoftEngine<D>::find_impacts() {
     if (old != touched_before_.end() && *old == pair) continue;
     Impact begun = impact(id(pair.first), id(pair.second));
     touches_.begin(begun);
-    if (id(pair.second) >= grains_.size()) begun.bead = wall_id(id(pair.second) - grains_.size());
+    begun.bead = bead_id(begun.bead);
     impacts_.push_back(begun);
   }
 }

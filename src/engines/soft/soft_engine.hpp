@@ -54,6 +54,7 @@ class SoftEngine final : public Engine {
   std::vector<Contact> contacts() const override;
   void collect_impacts(bool on) override;
   std::vector<Impact> take_impacts() override;
+  std::vector<Parting> take_partings() override { return std::exchange(partings_, {}); }
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
 
@@ -85,6 +86,7 @@ class SoftEngine final : public Engine {
   std::int64_t step_ = 0;
   bool collecting_ = false;
   std::vector<Impact> impacts_;
+  std::vector<Parting> partings_;
   std::vector<std::pair<std::int32_t, std::int32_t>> touched_,
       touched_before_;  // contacts of the last two steps
   TouchLog touches_;
@@ -113,6 +115,11 @@ class SoftEngine final : public Engine {
   template <class Each>
   void for_contacts(const Each& each) const;
   Impact impact(std::size_t i, std::size_t j) const;
+  /// As others know it: grains as they are, walls beyond all grains.
+  std::int64_t bead_id(std::int64_t bead) const {
+    const auto k = static_cast<std::size_t>(bead);
+    return k < grains_.size() ? bead : wall_id(k - grains_.size());
+  }
   void check_floor() const;
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>

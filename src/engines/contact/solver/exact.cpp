@@ -118,6 +118,8 @@ class StateIteration {
         const double size = norm(to);
         if (size == 0 || r_[i][0] <= 0) continue;
         const auto now = 1 / size * to;
+        if (dot(now, directions_[i]) < 0)
+          continue;  // a reversal: pushed along its slip, it will stick (2.35)
         turned = std::max(turned, norm(now - directions_[i]));
         directions_[i] = now;
       }

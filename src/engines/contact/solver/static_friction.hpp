@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engines/contact/solver/nsgs.hpp"
@@ -9,6 +11,7 @@ namespace chute::contact {
 struct StaticFriction {
   std::span<const double> held, sliding;    ///< μ_s ≥ μ_d, per contact
   std::span<const unsigned char> sticking;  ///< whether |v_s| at the step's start counts as none
+  std::span<double> bound = {};             ///< out: the coefficient that held in the end, if asked for
 };
 
 /// Solves with the bound μ_s where a contact sticks at the start and μ_d elsewhere; every contact that ends on the
@@ -38,6 +41,7 @@ Convergence with_static_friction(const StaticFriction& friction, const Solve& so
     }
     if (broken) all = all.then(solve(bound));
   }
+  if (!friction.bound.empty()) std::copy(bound.begin(), bound.end(), friction.bound.begin());
   return all;
 }
 

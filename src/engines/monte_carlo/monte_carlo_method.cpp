@@ -1,0 +1,65 @@
+#include "engines/monte_carlo/monte_carlo_method.hpp"
+
+#include <algorithm>
+
+#include "engines/monte_carlo/monte_carlo_engine.hpp"
+#include "laws/list.hpp"
+
+namespace chute::monte_carlo {
+namespace {
+
+template <int D>
+std::unique_ptr<Engine> made(World<D> world, const MonteCarloMethod& method, const engines::Setting& setting,
+                             int threads) {
+  const double d = setting.mean_diameter;
+  MonteCarloSetup<D> setup{world.surroundings()};
+  setup.seed = setting.seed;
+  setup.temperature = method.temperature;
+  setup.step = method.trial_length * d;
+  setup.equilibrate = method.equilibrate;
+  setup.serial = method.order == MonteCarloMethod::Order::serial;
+  if (method.shakes())
+    setup.shaking = Shaking{method.lift * d, method.expand, method.sweeps, method.settled * d};
+  const auto useful = std::max<std::int64_t>(1, setting.grains / MonteCarloMethod::grains_per_thread);
+  const int members = setup.serial ? 1 : static_cast<int>(std::min<std::int64_t>(threads, useful));
+  return std::make_unique<MonteCarloEngine<D>>(std::move(world.grains), setup, members);
+}
+
+}  // namespace
+
+Offers MonteCarloMethod::offers() const {
+  return {.walls = true, .threads = order == Order::checkerboard, .clock = shakes() ? "shakes" : "sweeps"};
+}
+
+std::optional<Refusal> MonteCarloMethod::refusal(const engines::Setting& s) const {
+  auto shear = s.contact.laws(s.reference()).shear;
+  if (const double* mu = laws::friction(shear); mu && *mu > 0)
+    return Refusal{"contact.tangential.friction",
+                   "monte-carlo knows no friction; use law = \"frictionless\""};
+  return {};
+}
+
+std::vector<Fact> MonteCarloMethod::facts(const engines::Setting& s) const {
+  const double weight = s.mean_mass * s.gravity;
+  std::vector<Fact> list{
+      {"delta", trial_length * s.mean_diameter, s.in("m", "d"), "longest trial move at the begin"}};
+  if (temperature > 0 && weight > 0)
+    list.push_back({"T/mg", temperature / weight, s.in("m", "d"), "height over which a thin gas falls off"});
+  return list;
+}
+
+double MonteCarloMethod::seconds_per_step(const engines::Setting& s) const {
+  constexpr double seconds_2d = 7e-8, seconds_3d = 1.5e-7;  // a trial move
+  constexpr double usual_sweeps = 2000;                     // of a shake
+  return static_cast<double>(s.grains) * (s.dimensions == 2 ? seconds_2d : seconds_3d) *
+         (shakes() ? usual_sweeps : 1);
+}
+
+std::unique_ptr<Engine> MonteCarloMethod::make(World<2> world, const engines::Setting& s, int threads) const {
+  return made(std::move(world), *this, s, threads);
+}
+std::unique_ptr<Engine> MonteCarloMethod::make(World<3> world, const engines::Setting& s, int threads) const {
+  return made(std::move(world), *this, s, threads);
+}
+
+}  // namespace chute::monte_carlo

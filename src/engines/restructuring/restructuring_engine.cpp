@@ -1,0 +1,175 @@
+#include "engines/restructuring/restructuring_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/vector.hpp>
+#include <numeric>
+
+#include "common/error.hpp"
+#include "engines/kind/packing.hpp"
+
+namespace chute::restructuring {
+namespace {
+
+/// Height of the floor, −infinity where there is none.
+template <int D>
+double floor_of(const std::vector<Wall<D>>& walls) {
+  double height = -std::numeric_limits<double>::infinity();
+  for (const auto& wall : walls) {
+    if (wall.normal[D - 1] != 1)
+      throw WorkError("restructuring lays grains on a level floor; it knows no other wall");
+    height = std::max(height, wall.point[D - 1]);
+  }
+  return height;
+}
+
+}  // namespace
+
+template <int D>
+RestructuringEngine<D>::RestructuringEngine(Grains<D> grains, const RestructuringSetup<D>& setup)
+    : setup_(setup),
+      grains_(std::move(grains)),
+      floor_(floor_of<D>(setup.walls)),
+      columns_(grains_, setup_.domain),
+      placer_(columns_, floor_),
+      supports_(grains_.moving),
+      start_place_(grains_.position) {
+  for (auto& force : no_force_) force.assign(grains_.size(), 0);
+  for (int k = 0; k < D; ++k) {
+    std::fill_n(grains_.velocity[static_cast<std::size_t>(k)].begin(), grains_.moving, 0.0);
+  }
+  for (auto& spin : grains_.spin) std::fill_n(spin.begin(), grains_.moving, 0.0);
+}
+
+template <int D>
+void RestructuringEngine<D>::advance(std::int64_t step) {
+  while (step_ < step) shake();
+}
+
+template <int D>
+void RestructuringEngine<D>::shake() {
+  ++step_;
+  events_ = 0;
+  columns_.clear();
+  for (std::size_t j = grains_.moving; j < grains_.size(); ++j)
+    columns_.lay({grains_.place(j), grains_.radius[j], static_cast<std::int32_t>(j)});
+  std::vector<std::size_t> order(grains_.moving);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const bool rains = setup_.rain != Rain::none && step_ == 1;
+  const auto& height = grains_.position[D - 1];
+  if (!rains)
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+      return height[a] != height[b] ? height[a] < height[b] : a < b;
+    });
+  for (const auto i : order) lay(i);
+}
+
+template <int D>
+void RestructuringEngine<D>::lay(std::size_t i) {
+  Random random(setup_.seed, Purpose::engine, i, static_cast<std::uint64_t>(step_));
+  Vec<D> place = grains_.place(i);
+  const auto& domain = setup_.domain;
+  for (int k = 0; k + 1 < D; ++k) {
+    const double length = domain.periodic(k) ? domain.length[k] : 0;
+    if (setup_.rain != Rain::none && step_ == 1)
+      place[k] = domain.lower[k] + (setup_.rain == Rain::line ? random.uniform() : 0.5) * length;
+    if (setup_.jolt > 0) place[k] += random.uniform(-setup_.jolt, setup_.jolt);
+  }
+  const auto rest = placer_.place(place, grains_.radius[i], random);
+  if (!rest)
+    throw WorkError(
+        fmt::format("shake {}: grain {} found no rest: it fell through the bed, or its way has more than {} "
+                    "events",
+                    step_, i, Placer<D>::most_events));
+  Supports& supports = supports_[i];
+  supports.count = 0;
+  for (int k = 0; k < rest->count; ++k)
+    supports.id[static_cast<std::size_t>(supports.count++)] = rest->supports[static_cast<std::size_t>(k)];
+  if (rest->on_floor) supports.id[static_cast<std::size_t>(supports.count++)] = wall_id(0);
+  place = rest->place;
+  for (int k = 0; k < D; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (domain.periodic(k)) {
+      const double laps = std::floor((place[k] - domain.lower[k]) / domain.length[k]);
+      place[k] -= laps * domain.length[k];
+      grains_.wraps[axis][i] += static_cast<int>(laps);
+    }
+    grains_.position[axis][i] = place[k];
+  }
+  columns_.lay({place, grains_.radius[i], static_cast<std::int32_t>(i)});
+  events_ += rest->events;
+}
+
+template <int D>
+EnergyAccount RestructuringEngine<D>::energy() const {
+  EnergyAccount e;
+  e.add_motion(grains(), setup_.gravity, start_place_);
+  e.normal_loss = e.gravity_work;  // grains arrive without speed: all that gravity did is lost on the way
+  return e;
+}
+
+template <int D>
+std::vector<Contact> RestructuringEngine<D>::contacts() const {
+  std::vector<Contact> list;
+  for (std::size_t i = 0; i < grains_.moving; ++i)
+    for (int s = 0; s < supports_[i].count; ++s) {
+      const auto other = supports_[i].id[static_cast<std::size_t>(s)];
+      Contact contact;
+      Vec<D> way{};
+      double own = grains_.radius[i];
+      if (is_wall(other)) {
+        way[D - 1] = floor_ - grains_.position[D - 1][i];
+        contact.a = static_cast<std::int64_t>(i), contact.b = other;
+      } else {
+        const auto j = static_cast<std::size_t>(other), a = std::min(i, j), b = std::max(i, j);
+        way = setup_.domain.way(grains_.place(a), grains_.place(b));
+        own = grains_.radius[a];
+        contact.a = static_cast<std::int64_t>(a), contact.b = static_cast<std::int64_t>(b);
+      }
+      const Vec<D> n = (1 / norm(way)) * way;
+      contact.branch = as_file_vector(way);
+      contact.normal = as_file_vector(n);
+      contact.point = as_file_vector(grains_.place(static_cast<std::size_t>(contact.a)) + own * n);
+      list.push_back(contact);
+    }
+  std::ranges::sort(list,
+                    [](const Contact& x, const Contact& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  return list;
+}
+
+template <int D>
+std::vector<std::pair<std::string, double>> RestructuringEngine<D>::tells() const {
+  const auto packing = engines::packing_of(grains_, setup_.domain, setup_.frame);
+  // Each contact counts for both of its grains; one with the bed or the floor for one.
+  std::int64_t ends = 0;
+  for (const auto& supports : supports_)
+    for (int s = 0; s < supports.count; ++s) {
+      const auto other = supports.id[static_cast<std::size_t>(s)];
+      ends += other >= 0 && other < static_cast<std::int64_t>(grains_.moving) ? 2 : 1;
+    }
+  const auto n = static_cast<double>(grains_.moving);
+  return {{"packing_fraction", packing.fraction},
+          {"mean_height", packing.mean_height},
+          {"tracer", packing.tracer},
+          {"coordination", static_cast<double>(ends) / n},
+          {"events", static_cast<double>(events_) / n}};
+}
+
+template <int D>
+void RestructuringEngine<D>::save(std::ostream& out) const {
+  cereal::PortableBinaryOutputArchive archive(out);
+  archive(step_, events_, grains_, supports_);
+}
+
+template <int D>
+void RestructuringEngine<D>::restore(std::istream& in) {
+  cereal::PortableBinaryInputArchive archive(in);
+  archive(step_, events_, grains_, supports_);
+}
+
+template class RestructuringEngine<2>;
+template class RestructuringEngine<3>;
+
+}  // namespace chute::restructuring

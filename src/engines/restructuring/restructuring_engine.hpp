@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <span>
+
+#include "core/engine.hpp"
+#include "core/world.hpp"
+#include "engines/restructuring/placing.hpp"
+
+namespace chute::restructuring {
+
+/// Where new grains come from in the first shake.
+enum class Rain { none, line, point };
+
+/// What a run needs besides its grains.
+template <int D>
+struct RestructuringSetup : Surroundings<D> {
+  std::uint64_t seed = 1;
+  Rain rain = Rain::none;
+  double jolt = 0;  ///< largest lateral shift of a grain in each direction before it falls; a length
+};
+
+/// Bottom-to-top restructuring, thesis 2.3: in every shake all grains are taken up and laid again one by one, in the order
+/// of their heights. Each keeps its lateral place, up to a random jolt, and goes down the steepest way over those that lie
+/// already; higher ones do not matter to it. There is no time, no force and no arch: a step is a shake.
+template <int D>
+class RestructuringEngine final : public Engine {
+ public:
+  /// WorkError if there is a wall that is no level floor.
+  RestructuringEngine(Grains<D> grains, const RestructuringSetup<D>& setup);
+
+  std::int64_t step() const override { return step_; }
+  double time_step() const override { return 1; }
+  GrainsView grains() const override { return view_of(grains_, no_force_, setup_.domain, time()); }
+  EnergyAccount energy() const override;
+  /// Each grain with those that it was laid on.
+  std::vector<Contact> contacts() const override;
+  std::vector<std::pair<std::string, double>> tells() const override;
+  void save(std::ostream& out) const override;
+  void restore(std::istream& in) override;
+
+  const Grains<D>& state() const { return grains_; }
+  /// What a grain was laid on: ids, or wall_id(0) for the floor.
+  std::span<const std::int64_t> supports(std::size_t grain) const {
+    return {supports_[grain].id.data(), static_cast<std::size_t>(supports_[grain].count)};
+  }
+
+ private:
+  void advance(std::int64_t step) override;
+  void shake();
+  void lay(std::size_t i);
+
+  struct Supports {
+    std::array<std::int64_t, D + 1> id{};
+    int count = 0;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(id, count);
+    }
+  };
+
+  RestructuringSetup<D> setup_;
+  Grains<D> grains_;
+  double floor_;
+  Columns<D> columns_;
+  Placer<D> placer_;
+  std::vector<Supports> supports_;
+  std::array<Array, D> start_place_, no_force_;
+  std::int64_t step_ = 0, events_ = 0;  // events of the last shake
+};
+
+}  // namespace chute::restructuring

@@ -1,0 +1,43 @@
+#include "engines/restructuring/restructuring_method.hpp"
+
+namespace chute::restructuring {
+namespace {
+
+template <int D>
+std::unique_ptr<Engine> made(World<D> world, const RestructuringMethod& method,
+                             const engines::Setting& setting) {
+  RestructuringSetup<D> setup{world.surroundings()};
+  setup.seed = setting.seed;
+  setup.rain = method.rain;
+  setup.jolt = method.jolt * setting.mean_diameter;
+  return std::make_unique<RestructuringEngine<D>>(std::move(world.grains), setup);
+}
+
+}  // namespace
+
+std::optional<Refusal> RestructuringMethod::refusal(const engines::Setting& s) const {
+  if (s.theta != 0)
+    return Refusal{"incline", "restructuring lays grains straight down: it needs angle = \"0 deg\""};
+  return {};
+}
+
+std::vector<Fact> RestructuringMethod::facts(const engines::Setting& s) const {
+  return {{"shakes", s.duration, "", "times that every grain is laid"},
+          {"jolt", jolt * s.mean_diameter, s.in("m", "d"), "largest shift sideways before a grain falls"}};
+}
+
+double RestructuringMethod::seconds_per_step(const engines::Setting& s) const {
+  constexpr double seconds_2d = 1e-6, seconds_3d = 5e-6;  // to lay a grain
+  return static_cast<double>(s.grains) * (s.dimensions == 2 ? seconds_2d : seconds_3d);
+}
+
+std::unique_ptr<Engine> RestructuringMethod::make(World<2> world, const engines::Setting& setting,
+                                                  int) const {
+  return made(std::move(world), *this, setting);
+}
+std::unique_ptr<Engine> RestructuringMethod::make(World<3> world, const engines::Setting& setting,
+                                                  int) const {
+  return made(std::move(world), *this, setting);
+}
+
+}  // namespace chute::restructuring

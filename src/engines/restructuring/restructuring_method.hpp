@@ -1,0 +1,38 @@
+#pragma once
+#include <array>
+
+#include "engines/kind/method.hpp"
+#include "engines/restructuring/restructuring_engine.hpp"
+
+namespace chute::restructuring {
+
+/// `engine.method = "restructuring"`.
+class RestructuringMethod final : public Described<engines::Method, RestructuringMethod> {
+ public:
+  static constexpr std::string_view word = "restructuring",
+                                    text = "grains laid one by one, bottom to top, without dynamics (2.3)";
+  Rain rain = Rain::none;
+  static constexpr std::array<std::string_view, 3> rains{"none", "line", "point"};
+  double jolt = 0;
+
+  template <class Archive>
+  void describe(Archive& a) {
+    a.choice(
+        "rain", rain, rains,
+        "where grains come from in the first shake, in the order of their ids: from where they are, in the order of "
+        "their heights; from random places; from one point");
+    a.value("jolt", jolt, between(0, 10),
+            "largest random shift sideways before a grain falls, in mean diameters");
+  }
+  Offers offers() const override {
+    return {.contacts = true, .walls = true, .only_floor = true, .clock = "shakes"};
+  }
+  std::optional<Refusal> refusal(const engines::Setting& setting) const override;
+  double step(const engines::Setting&) const override { return 1; }
+  std::vector<Fact> facts(const engines::Setting& setting) const override;
+  double seconds_per_step(const engines::Setting& setting) const override;
+  std::unique_ptr<Engine> make(World<2> world, const engines::Setting& setting, int threads) const override;
+  std::unique_ptr<Engine> make(World<3> world, const engines::Setting& setting, int threads) const override;
+};
+
+}  // namespace chute::restructuring

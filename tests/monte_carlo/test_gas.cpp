@@ -1,0 +1,85 @@
+// The gas of hard discs and spheres: pressure from the value of g(r) at contact, against virial series and theory.
+#include <catch2/catch.hpp>
+
+#include "core/estimate.hpp"
+#include "gas.hpp"
+#include "measure/pair_distances.hpp"
+
+using namespace chute;
+using namespace chute::test;
+
+namespace {
+
+/// Z = βP/n of hard discs from their ten known virial coefficients (Clisby & McCoy 2006), the rest as a geometric series.
+double virial_discs(double phi) {
+  constexpr std::array B{1.0, 0.782004, 0.532232, 0.333556, 0.198843, 0.114873, 0.064993, 0.036219, 0.019954};
+  constexpr double tail = 0.55;
+  const double x = 2 * phi;
+  double z = 1, power = x;
+  for (const double b : B) z += b * power, power *= x;
+  return z + B.back() * tail * power / (1 - tail * x);
+}
+double carnahan_starling(double phi) {
+  return (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
+}
+
+/// Z from samples of a run.
+template <int D>
+Estimate pressure(int side, double phi, bool serial, int samples, std::uint64_t seed = 1) {
+  Gas<D> gas(side, phi);
+  gas.setup.serial = serial, gas.setup.seed = seed;
+  MonteCarloEngine<D> engine(gas.grains, gas.setup);
+  constexpr int settle = 600, between = 4;
+  measure::PairDistances pairs(1.5, 0.01, {settle, settle + between * static_cast<double>(samples), 10});
+  for (int s = 0; s < samples; ++s) {
+    engine.advance_to(settle + between * s);
+    pairs.add(engine.grains());
+  }
+  const auto contact = pairs.contact(settle);
+  CHECK(contact.phi == Approx(phi));
+  return contact.Z;
+}
+
+}  // namespace
+
+TEST_CASE("the pressure of hard discs is that of their virial series, drawn serially or by blocks") {
+  for (const double phi : {0.2, 0.5})
+    for (const bool serial : {true, false}) {
+      const auto z = pressure<2>(24, phi, serial, 1200);
+      CAPTURE(phi, serial, z.mean, *z.error, virial_discs(phi));
+      CHECK(z.mean == Approx(virial_discs(phi)).epsilon(0.01));
+    }
+}
+
+// Two ways to draw the trials of one and the same equilibrium.
+TEST_CASE("drawn serially and by blocks, g(r) is the same") {
+  const auto of = [](bool serial) {
+    Gas<2> gas(20, 0.6);
+    gas.setup.serial = serial, gas.setup.seed = 3;
+    MonteCarloEngine<2> engine(gas.grains, gas.setup);
+    measure::PairDistances pairs(3, 0.1, {1000, 5000, 20});
+    for (int sweep = 1000; sweep < 5000; sweep += 5) {
+      engine.advance_to(sweep);
+      pairs.add(engine.grains());
+    }
+    return pairs.result(1000);
+  };
+  const auto serial = of(true), blocks = of(false);
+  double square = 0;
+  for (std::size_t b = 0; b < serial.size(); ++b) {
+    const double error = std::hypot(*serial[b].g.error, *blocks[b].g.error);
+    CAPTURE(serial[b].r, serial[b].g.mean, blocks[b].g.mean, error);
+    CHECK(std::abs(serial[b].g.mean - blocks[b].g.mean) < 4.5 * error);
+    CHECK(error < 0.02 * serial[b].g.mean);
+    square += std::pow((serial[b].g.mean - blocks[b].g.mean) / error, 2);
+  }
+  CHECK(square / static_cast<double>(serial.size()) < 2.5);
+}
+
+TEST_CASE("the pressure of hard spheres is Carnahan's and Starling's") {
+  for (const double phi : {0.2, 0.4}) {
+    const auto z = pressure<3>(9, phi, false, 500);
+    CAPTURE(phi, z.mean, *z.error, carnahan_starling(phi));
+    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.012));
+  }
+}
