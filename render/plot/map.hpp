@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "plot/layout.hpp"
 #include "plot/marks.hpp"
 
 /// Maps: a quantity over the plane as colours, with a bar that says what they mean.
