@@ -181,8 +181,8 @@ static void describe(Archive& a, Scene& scene) {
     a.section("engine", engine);
     if (scene.engine->brings_grains())
       for (const char* table : {"grains", "contact"})
-        a.check(!a.has(table), table,
-                fmt::format("engine.method = \"{}\" lays its grains itself", scene.engine.word()));
+        if (a.has(table))
+          a.fail(table, fmt::format("engine.method = \"{}\" lays its grains itself", scene.engine.word()));
   }
   a.required_section("incline", scene.incline);
   if (!std::same_as<Archive, TomlWriter> || scene.domain.periodic || scene.domain.size)

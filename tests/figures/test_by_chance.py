@@ -32,15 +32,28 @@ class ByChance(unittest.TestCase):
         curves = self.made.curves("fig-m-15")
         rows = [c for (panel, _), c in curves.items() if panel == "a"]
         self.assertGreater(len(rows), 100)
-        values = [y for row in rows for _, y, _ in row]
-        mean = sum(values) / len(values)
-        spread = math.sqrt(sum((y - mean) ** 2 for y in values) / len(values))
-        # Independent grains on the 220 sites of a cell would scatter by some 7 per cent: waves are several times that.
-        self.assertGreater(spread / mean, 0.2)
-        spectrum = curves["b", "spectrum"]
-        low, high = spectrum[2], spectrum[-3]
-        slope = math.log(high[1] / low[1]) / math.log(high[0] / low[0])
-        self.assertLess(slope, -0.7)
+        # Waves travel downhill: what is here now is there later. The correlation of rows 200 updates apart, by the shift.
+        def correlation(shift):
+            sums = [0, 0]
+            for early, late in zip(rows, rows[10:]):
+                n = len(early)
+                means = [sum(y for _, y, _ in row) / n for row in (early, late)]
+                a = [y - means[0] for _, y, _ in early]
+                b = [y - means[1] for _, y, _ in late]
+                sums[0] += sum(a[i] * b[(i + shift) % n] for i in range(n))
+                sums[1] += math.sqrt(sum(v * v for v in a) * sum(v * v for v in b))
+            return sums[0] / sums[1]
+
+        by_shift = {shift: correlation(shift) for shift in range(-30, 31)}
+        best = max((s for s in by_shift if s != 0), key=by_shift.get)
+        self.assertGreater(best, 0)
+        self.assertGreater(by_shift[best], 0.1, "best shift %d" % best)
+        # The spectrum falls with a power, published near 4/3, over the decade from 1e-4 on.
+        decade = [(math.log(x), math.log(y)) for x, y, _ in curves["b", "spectrum"] if 1e-4 < x < 1e-3]
+        mx, my = (sum(v) / len(decade) for v in zip(*decade))
+        slope = sum((x - mx) * (y - my) for x, y in decade) / sum((x - mx) ** 2 for x, _ in decade)
+        self.assertLess(slope, -0.8)
+        self.assertGreater(slope, -1.8)
 
     def test_profiles_agree(self):
         """Where the gas is dilute both methods have the same profiles."""
