@@ -22,10 +22,10 @@ struct Shaking {
 template <int D>
 struct MonteCarloSetup : Surroundings<D> {
   std::uint64_t seed = 1;
-  double temperature = 0;          ///< T, an energy; 0: only moves that do not go up
-  double step = 0.1;               ///< δ, the longest trial move
-  std::int64_t equilibrate = 0;    ///< sweeps in which δ adapts to an acceptance of 40 %
-  bool serial = false;             ///< grains drawn one by one from all; else block by block
+  double temperature = 0;            ///< T, an energy; 0: only moves that do not go up
+  double step = 0.1;                 ///< δ, the longest trial move
+  std::int64_t equilibrate = 0;      ///< sweeps in which δ adapts to an acceptance of 40 %
+  bool serial = false;               ///< grains drawn one by one from all; else block by block
   std::optional<Shaking> shaking{};  ///< a step is a shake; else a sweep
 };
 
