@@ -21,6 +21,7 @@ template <int D>
 std::unique_ptr<Engine> made(const scene::Scene& scene, int threads, measure::RunContext& run) {
   auto world = scene::make_world<D>(scene);
   run.frame = world.frame;
+  run.tilt = world.tilt;
   run.facts = io::facts_of(world, units_of(scene));
   return scene.engine->make(std::move(world), scene::setting_of(scene), threads);
 }
@@ -34,6 +35,7 @@ Session::Session(const scene::Scene& scene, int threads, const std::filesystem::
       fmt::format("units: {}; seed {}; chute {} ({})", units_of(scene), scene.seed, version, commit);
   run_.offers = scene.engine->offers();
   run_.gravity = scene.incline.gravity;
+  run_.diameter = scene::setting_of(scene).mean_diameter;
   run_.independent = scene.grains.independent;
   run_.time_step = engine_->time_step();
   run_.duration = scene.duration;
