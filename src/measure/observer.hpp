@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,7 +33,9 @@ struct RunContext {
   Frame frame;
   Offers offers;
   double gravity = 0;
-  bool independent = false;  ///< grains do not feel each other: each is a run of its own
+  double diameter = 1;         ///< of a mean grain
+  std::optional<Tilt> tilt{};  ///< of an incline that is tilted meanwhile
+  bool independent = false;    ///< grains do not feel each other: each is a run of its own
   double time_step = 0, duration = 0;
   double contact_time = 0;          ///< t_n of the contact that the scene is about
   std::filesystem::path directory;  ///< empty: nothing is written

@@ -3,6 +3,7 @@
 #include <array>
 #include <cereal/types/string.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "measure/outputs.hpp"
 
@@ -79,6 +80,13 @@ Flow SeriesObserver::flow() const {
   return flow;
 }
 
+std::optional<TurningAngles> SeriesObserver::turning_angles() const {
+  if (!run_.tilt || !(run_.tilt->gravity > 0)) return {};
+  std::vector<double> time, v_x;
+  for (const auto& row : rows_) time.push_back(row.time), v_x.push_back(row.v[0]);
+  return measure::turning_angles(*run_.tilt, run_.diameter, time, v_x);
+}
+
 void SeriesObserver::write(const Flow&) const {
   using Row = SeriesRow;
   const auto energy = [](double EnergyAccount::*member) {
@@ -99,6 +107,9 @@ void SeriesObserver::write(const Flow&) const {
       .add("wall_work", energy(&EnergyAccount::wall_work))
       .add("projection_work", energy(&EnergyAccount::projection_work))
       .add("residual", [](const Row& row) { return row.energy.residual(); });
+  if (run_.tilt)
+    columns.add("angle",
+                [this](const Row& row) { return run_.tilt->angle(row.time) * 180 / std::numbers::pi; });
   for (std::size_t k = 0; k < told_.size(); ++k)
     columns.add(told_[k], [k](const Row& row) { return row.tells[k]; });
   run_.write("series.csv",

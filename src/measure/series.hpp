@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "measure/observer.hpp"
+#include "measure/tilting.hpp"
 
 namespace chute::measure {
 
@@ -38,6 +39,8 @@ class SeriesObserver final : public Remembering<SeriesObserver> {
   const std::vector<SeriesRow>& series() const { return rows_; }
   /// What became of the flow, or of each grain that does not feel the others.
   std::vector<Flow> starts() const;
+  /// Where it started and stopped, of an incline that is tilted.
+  std::optional<TurningAngles> turning_angles() const;
   /// What became of all of it: of several starts the verdict that most of them have, with means over those.
   Flow flow() const;
 

@@ -30,6 +30,12 @@ void write_record(const std::filesystem::path& file, const RunRecord& r,
       {"clock", r.clock},         {"end", r.end}};
   if (!r.why.empty()) json["why"] = r.why;
   if (flow) json["flow"] = to_json(*flow);
+  if (r.tilting) {
+    const auto degrees = [](const std::optional<double>& angle) {
+      return angle ? nlohmann::ordered_json(*angle) : nlohmann::ordered_json();
+    };
+    json["tilting"] = {{"start_angle", degrees(r.tilting->start)}, {"stop_angle", degrees(r.tilting->stop)}};
+  }
   if (starts.size() > 1)
     for (const auto& start : starts) json["starts"].push_back(to_json(start));
   // a command line may hold any bytes

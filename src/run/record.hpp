@@ -6,6 +6,7 @@
 #include <string>
 
 #include "measure/steadiness.hpp"
+#include "measure/tilting.hpp"
 
 namespace chute::run {
 
@@ -18,8 +19,9 @@ struct RunRecord {
   double seconds = 0;
   std::int64_t steps = 0;
   double time_step = 0, time = 0;
-  std::string clock = "time";  ///< what `time` counts
-  std::string end, why;        ///< `why` is left out if empty
+  std::string clock = "time";                       ///< what `time` counts
+  std::optional<measure::TurningAngles> tilting{};  ///< of an incline that is tilted meanwhile
+  std::string end, why;                             ///< `why` is left out if empty
 
   /// This moment in universal time, 2026-01-31T12:00:00Z.
   static std::string now();

@@ -108,6 +108,7 @@ class Run {
     record.end = state;
     record.why = why;
     const auto& series = session_.series();
+    record.tilting = series.turning_angles();
     const auto file = directory_.file("run.json");
     series.rows() > 0 ? write_record(file, record, series.flow(), series.starts())
                       : write_record(file, record);

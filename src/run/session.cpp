@@ -21,6 +21,7 @@ template <int D>
 std::unique_ptr<Engine> made(const scene::Scene& scene, int threads, measure::RunContext& run) {
   auto world = scene::make_world<D>(scene);
   run.frame = world.frame;
+  run.tilt = world.tilt;
   run.facts = io::facts_of(world, units_of(scene));
   return scene.engine->make(std::move(world), scene::setting_of(scene), threads);
 }
@@ -35,6 +36,7 @@ Session::Session(const scene::Scene& scene, int threads, const std::filesystem::
   run_.offers = scene.engine->offers();
   run_.facts.clock = run_.offers.clock;
   run_.gravity = scene.incline.gravity;
+  run_.diameter = scene::setting_of(scene).mean_diameter;
   run_.independent = scene.grains.independent;
   run_.time_step = engine_->time_step();
   run_.duration = scene.duration;

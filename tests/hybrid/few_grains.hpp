@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 
+#include "core/frame.hpp"
 #include "core/random.hpp"
 #include "engines/hybrid/hybrid_engine.hpp"
 

@@ -225,3 +225,19 @@ TEST_CASE("the collisions of a flowing heap add up to its changes of momentum") 
       CHECK(given[static_cast<std::int64_t>(i)][k] == Approx(change).margin(1e-10));
     }
 }
+
+TEST_CASE("a sphere on a plane that tilts rolls as gravity has it by then, and the account closes") {
+  Grains<2> grains;
+  add_ball<2>(grains, {{0, 0.5}}, {});
+  auto setup = setup_of<2>(0, {0.8, 0}, 2e-3);
+  const Tilt tilt{0.1, 0.5, 0.1, 1};
+  setup.gravity = gravity_on_incline<2>(1, tilt.from);
+  setup.tilt = tilt;
+  setup.walls = {floor_at<2>()};
+  HybridEngine<2> engine(grains, setup);
+  engine.advance_to(2000);
+  // v = 5/7 ∫ g sin θ dt, with θ = 0.1 + 0.1 t up to t = 4
+  const double expected = 5.0 / 7 * (std::cos(0.1) - std::cos(0.5)) / 0.1;
+  CHECK(engine.state().velocity[0][0] == Approx(expected).epsilon(2e-3));
+  CHECK(std::abs(engine.energy().residual()) < 1e-9);
+}

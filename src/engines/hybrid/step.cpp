@@ -59,6 +59,17 @@ std::int64_t Step<D>::version(const Partners& p) {
   return flight(p.i).collisions + (moves(p.j) ? flight(p.j).collisions : 0);
 }
 
+/// Nearly all looks end here: the square of the distance falls within a time T by at most 2 T |d·v| + T² |d·a|, the
+/// first only if they approach. Of two that do not approach and feel no gravity between them nothing falls.
+template <int D>
+static bool cannot_meet(const hard::Approach<D>& approach, double time) {
+  const double closing = dot(approach.d, approach.v), pull = dot(approach.d, approach.a);
+  if (closing >= 0 && pull >= 0) return dot(approach.a, approach.a) == 0 || approach.gap(0) > 0;
+  const double least =
+      approach.gap(0) + 2 * time * std::min(closing, 0.0) + time * time * std::min(pull, 0.0);
+  return least > 1e-12 * approach.reach * approach.reach;
+}
+
 /// When the two meet, after both of their local times; infinity if not within the step.
 template <int D>
 double Step<D>::contact(const Partners& p) {
@@ -74,7 +85,7 @@ double Step<D>::contact(const Partners& p) {
   if (moves(p.j)) approach.v = approach.v - b.velocity_at(from);
   approach.a = moves(p.j) ? Vec<D>{} : a.gravity;
   approach.reach = a.radius + b.radius;
-  if (from + approach.earliest() > end_) return never;
+  if (cannot_meet(approach, end_ - from)) return never;
   const double t = from + hard::first_contact(approach);
   return t <= end_ ? t : never;
 }

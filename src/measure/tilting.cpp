@@ -1,0 +1,41 @@
+#include "measure/tilting.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace chute::measure {
+namespace {
+
+constexpr double moving = 0.01;  ///< of √(g d)
+constexpr double for_good = 10;  ///< of √(d/g)
+
+/// The first row from `begin` on from which `is` holds for that long, up to a row of the series; none is the size.
+template <class Is>
+std::size_t first_lasting(const std::vector<double>& time, std::size_t begin, double lasts, const Is& is) {
+  std::size_t from = begin;
+  for (std::size_t k = begin; k < time.size(); ++k) {
+    if (!is(k))
+      from = k + 1;
+    else if (time[k] - time[from] >= lasts)
+      return from;
+  }
+  return time.size();
+}
+
+}  // namespace
+
+TurningAngles turning_angles(const Tilt& tilt, double diameter, const std::vector<double>& time,
+                             const std::vector<double>& v_x) {
+  const double least = moving * std::sqrt(tilt.gravity * diameter),
+               lasts = for_good * std::sqrt(diameter / tilt.gravity);
+  const auto angle = [&](std::size_t k) { return tilt.angle(time[k]) * 180 / std::numbers::pi; };
+  TurningAngles angles;
+  const auto moves = first_lasting(time, 0, lasts, [&](std::size_t k) { return v_x[k] > least; });
+  if (moves == time.size()) return angles;
+  if (moves > 0) angles.start = angle(moves);
+  const auto stops = first_lasting(time, moves, lasts, [&](std::size_t k) { return v_x[k] <= least; });
+  if (stops < time.size()) angles.stop = angle(stops);
+  return angles;
+}
+
+}  // namespace chute::measure
