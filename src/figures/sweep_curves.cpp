@@ -44,7 +44,8 @@ class Sweeps {
     const auto& curve = *point.curve;
     const auto base = setting_.base.with(curve.set).with({curve.x.setting(point.x)});
     if (is_boundary(curve)) {
-      const auto& spec = *curve.boundary;
+      auto spec = *curve.boundary;
+      if (setting_.quick) spec.tolerance = curve.quick_tolerance.value_or(spec.tolerance);
       const bool ab = curve.column == Column::AB;
       const auto found = sweep::boundaries_of(base, spec, ab ? sweep::Wanted::AB : sweep::Wanted::both,
                                               setting_.seeds, store_, progress);
@@ -110,7 +111,9 @@ void describe(TomlReader& a, SweepCurve& curve) {
   a.section("boundary", curve.boundary);
   a.value("scale", curve.scale, positive);
   a.value("along_sine", curve.along_sine);
+  a.value("quick_tolerance", curve.quick_tolerance, positive);
   a.check(!curve.along_sine || is_boundary(curve), "along_sine", "is of boundaries: AB, BC");
+  a.check(!curve.quick_tolerance || is_boundary(curve), "quick_tolerance", "is of boundaries: AB, BC");
   a.value("above_offset", curve.above_offset);
   a.value("offset_of", curve.offset_of);
   a.check(is_boundary(curve) == curve.boundary.has_value(), "boundary",

@@ -25,10 +25,11 @@ struct SweepCurve {
   std::vector<double> velocities;               ///< launches, slowest first: the others tell where B ends
   double alike = 0.05;                          ///< how far their medians may lie apart in B
   std::optional<sweep::BoundarySpec> boundary;  ///< AB, BC: along what, of incline.sin or incline.angle
-  double scale = 1;                      ///< y times this: a mean in other units, or scaled by a power of Φ
-  bool along_sine = false;               ///< AB, BC: drawn as Φ over sin θ, the thesis's way
-  bool above_offset = false;             ///< v_x: (v_x − v_0)², with v_0 from a fit of (4.20) in phase B
-  std::optional<std::string> offset_of;  ///< v_0 of that series instead of the own one's
+  double scale = 1;                       ///< y times this: a mean in other units, or scaled by a power of Φ
+  std::optional<double> quick_tolerance;  ///< AB, BC: of a quick figure
+  bool along_sine = false;                ///< AB, BC: drawn as Φ over sin θ, the thesis's way
+  bool above_offset = false;              ///< v_x: (v_x − v_0)², with v_0 from a fit of (4.20) in phase B
+  std::optional<std::string> offset_of;   ///< v_0 of that series instead of the own one's
 };
 void describe(TomlReader& a, SweepCurve& curve);
 

@@ -143,7 +143,7 @@ class Impacts(unittest.TestCase):
         near = sum(any(0.93 < q / 0.8**k < 1.02 for k in (1, 2, 3)) for q in ratios)
         self.assertGreater(near, 0.8 * len(ratios))
         with open(os.path.join(made.folder.name, "fig-4-35.csv"), encoding="utf-8") as file:
-            shares = {line[2]: float(line.split(": ")[1].split()[0]) for line in file if "are left out" in line}
+            shares = {line[2]: float(line.split(": ")[1].split()[0]) for line in file if "% of the rows" in line}
         self.assertGreater(shares["b"], 80)
         self.assertLess(shares["a"], 40)
 
