@@ -156,7 +156,7 @@ ContactEngine<D> heap(int wide, int layers, ContactSetup<D> setup, double spacin
 
 }  // namespace
 
-// In space the states of a pile come back sooner or later, and the exact solver says so; until then they agree.
+// With more friction a pile may have several solutions, and they find different ones. In space the states of a pile come back sooner or later, and the exact solver says so; until then they agree.
 TEST_CASE("the fast solver and its exact twin move a small pile alike") {
   const auto run = []<int D>(std::integral_constant<int, D>, double mu, std::int64_t steps) {
     auto setup = setup_of<D>(mu, 0.01);
@@ -174,7 +174,7 @@ TEST_CASE("the fast solver and its exact twin move a small pile alike") {
         CHECK(fast.state().velocity[k][i] == Approx(exact.state().velocity[k][i]).margin(1e-8));
       }
   };
-  for (const double mu : {0.0, 0.2, 0.5}) run(std::integral_constant<int, 2>{}, mu, 300);
+  for (const double mu : {0.0, 0.1, 0.2, 0.3}) run(std::integral_constant<int, 2>{}, mu, 300);
   run(std::integral_constant<int, 3>{}, 0, 300);
   for (const double mu : {0.05, 0.2}) run(std::integral_constant<int, 3>{}, mu, 100);
 }
@@ -221,4 +221,51 @@ TEST_CASE("the same bytes resumed or not") {
   CHECK(second.contacts().size() == first.contacts().size());
   second.advance_to(150);
   CHECK(state_of(second) == state_of(whole));
+}
+
+TEST_CASE("a heap of 1000 discs at rest creeps less than 1e-6 d per unit of time and weighs what it weighs") {
+  // On a rough bed, without rebound: what fell between smooth walls. A disc that lies loose on a smooth floor would roll
+  // for ever.
+  constexpr int wide = 60, layers = 17;
+  const auto lay = [&](double tolerance, std::int64_t iterations) {
+    Grains<2> grains;
+    for (int layer = 0, id = 0; layer < layers; ++layer)
+      for (int x = 0; x < wide; ++x, ++id) {
+        Random random(3, Purpose::start, static_cast<std::uint64_t>(id));
+        add_ball<2>(grains, {{0.6 + (layer % 2) * 0.5 + 1.02 * x, 1.0 + 0.9 * layer}}, {}, true,
+                    0.5 * (1 - 0.1 * random.uniform()));
+      }
+    for (int k = 0; k < wide + 3; ++k) add_ball<2>(grains, {{1.0 * k, 0}}, {}, false);
+    auto setup = setup_of<2>(0.5);
+    setup.impacts = contact::Impacts::moreau;
+    setup.tolerance = tolerance, setup.iterations = iterations;
+    pull<2>(setup, {{0, -1}});
+    setup.walls = {{{{0, 0}}, {{1, 0}}}, {{{1.2 + 1.02 * wide, 0}}, {{-1, 0}}}};
+    for (auto& wall : setup.walls) wall.surface.friction = 0;
+    return ContactEngine<2>(std::move(grains), setup);
+  };
+  auto falling = lay(1e-4, 200);
+  falling.advance_to(2000);
+  auto settling = lay(1e-6, 1000), heap = lay(1e-9, 20000);
+  const auto go_on = [](ContactEngine<2>& engine, const std::string& bytes, std::int64_t step) {
+    std::istringstream state(bytes);
+    engine.restore(state);
+    engine.advance_to(step);
+  };
+  go_on(settling, state_of(falling), 4000);
+  go_on(heap, state_of(settling), 5000);
+  const auto before = heap.state().position;
+  heap.advance_to(5200);
+  double creep = 0, weight = 0;
+  for (std::size_t i = 0; i < heap.state().moving; ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+      creep =
+          std::max(creep, std::abs(heap.state().position[k][i] - before[k][i]) / 2);  // in 2 units of time
+  for (const auto& c : heap.contacts())
+    if (c.b >= static_cast<std::int64_t>(heap.state().moving)) weight -= c.force[1];
+  CAPTURE(creep, heap.record().last_residual, heap.energy().translation);
+  CHECK(creep < 1e-6);
+  CHECK(weight == Approx(wide * layers).epsilon(1e-6));
+  CHECK(heap.record().last_residual <= 1e-9);
+  CHECK(heap.contacts().size() > 1500);
 }

@@ -23,9 +23,6 @@ constexpr double near_skin = 0.15, far_skin = 0.5;
 /// A grain may not move farther than this part of d in a step: it might pass another.
 constexpr double farthest_move = 0.3;
 
-/// Overlaps below this part of d are left alone.
-constexpr double slop = 1e-4;
-
 }  // namespace
 
 void SolverRecord::add(const Convergence& step) {
@@ -46,6 +43,7 @@ ContactEngine<D>::ContactEngine(Grains<D> grains, const ContactSetup<D>& setup)
       list_(setup.domain, {near_skin * setup.diameter, far_skin * setup.diameter}),
       walton_(setup_, grains_),
       problem_(setup_, grains_),
+      projection_(setup_, grains_),
       touches_(grains_.moving, setup.time_step),
       struck_grains_(grains_.moving, 0),
       team_(std::make_unique<Team>(setup.threads)) {
@@ -207,39 +205,17 @@ void ContactEngine<D>::arrive(const Vec<D>& gravity) {
   }
 }
 
-template <int D>
-void ContactEngine<D>::move_apart(std::size_t i, const Vec<D>& way, const Vec<D>& gravity) {
-  for (int k = 0; k < D; ++k) grains_.position[static_cast<std::size_t>(k)][i] += way[k];
-  const double work = grains_.mass[i] * dot(gravity, way);
-  account_.projection_work -= work;
-  if (setup_.tilt) account_.gravity_work += work;
-}
-
-/// Takes a part of what overlaps, for normals turn within a step and impacts overlap before they are found: places
-/// only, by inverse masses, one contact after the other in their order.
+/// What overlaps is moved apart.
 template <int D>
 void ContactEngine<D>::push_apart(double end, const Vec<D>& gravity) {
-  deepest_ = 0;
-  const auto push = [&](double overlap) {
-    deepest_ = std::max(deepest_, overlap);
-    return setup_.relaxation * std::max(0.0, overlap - slop * setup_.diameter);
-  };
-  for (const auto& t : touching_) {
-    if (!(t.gap < 0)) continue;  // an impact of the next step, which will be moved back to its time
-    if (is_wall(t.j)) {
-      const auto touch = wall_of(t.j).nearest(grains_.place(t.i), end, setup_.domain);
-      if (touch.height < grains_.radius[t.i])
-        move_apart(t.i, push(grains_.radius[t.i] - touch.height) * touch.normal, gravity);
-      continue;
-    }
-    const Vec<D> way = setup_.domain.way(grains_.place(t.j), grains_.place(t.i));
-    const double distance = norm(way), overlap = grains_.radius[t.i] + grains_.radius[t.j] - distance;
-    if (!(overlap > 0)) continue;
-    const double one = grains_.inverse_mass[t.i], other = grains_.inverse_mass[t.j];
-    const Vec<D> apart = push(overlap) / (distance * (one + other)) * way;
-    move_apart(t.i, one * apart, gravity);
-    if (moves(t.j)) move_apart(t.j, -other * apart, gravity);
+  const auto& ways = projection_.find(touching_, end);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    for (int k = 0; k < D; ++k) grains_.position[static_cast<std::size_t>(k)][i] += ways[i][k];
+    const double work = grains_.mass[i] * dot(gravity, ways[i]);
+    account_.projection_work -= work;
+    if (setup_.tilt) account_.gravity_work += work;
   }
+  deepest_ = projection_.deepest();
   wrap();
 }
 

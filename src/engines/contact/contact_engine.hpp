@@ -3,6 +3,7 @@
 
 #include "core/engine.hpp"
 #include "engines/contact/impacts.hpp"
+#include "engines/contact/projection.hpp"
 #include "engines/contact/step_problem.hpp"
 #include "search/neighbour_list.hpp"
 
@@ -66,6 +67,7 @@ class ContactEngine final : public Engine {
   std::vector<Touching<D>> touching_, last_;  // ordered by i, then j; in this step and in the one before
   WaltonImpacts<D> walton_;
   StepProblem<D> problem_;
+  Projection<D> projection_;
   TouchLog touches_;
   std::array<Array, D> start_place_, force_;
   EnergyAccount account_;
@@ -89,7 +91,6 @@ class ContactEngine final : public Engine {
   void bounce(double begin, const Vec<D>& gravity);
   void arrive(const Vec<D>& gravity);
   void push_apart(double end, const Vec<D>& gravity);
-  void move_apart(std::size_t i, const Vec<D>& way, const Vec<D>& gravity);
   void wrap();
   void note_touches(double begin);
   void note_impact(const Touching<D>& t, double time, const Vec<D>& velocity);
