@@ -25,11 +25,12 @@ class Frames final : public Remembering<Frames> {
     const auto k = due_.index_at(look.engine.step());
     if (k < 0) return;
     const GrainsView grains = look.engine.grains();
-    run_.write(name("frames", k), io::grains_vtp(grains, run_.facts));
+    const auto facts = facts_at(look.engine.time());
+    run_.write(name("frames", k), io::grains_vtp(grains, facts));
     if (with_contacts_) {
       auto contacts = contacts_.take(look).value_or(std::vector<Contact>{});
       if (run_.offers.collisions) contacts = joined_by_pair(contacts);
-      run_.write(name("contacts", k), io::contacts_vtp(grains, contacts, run_.facts));
+      run_.write(name("contacts", k), io::contacts_vtp(grains, contacts, facts));
     }
     times_.push_back(look.engine.time());
   }
@@ -54,6 +55,17 @@ class Frames final : public Remembering<Frames> {
   ContactSamples contacts_;
   std::vector<double> times_;
 
+  /// With gravity as it is by then, of an incline that is tilted meanwhile.
+  io::RunFacts facts_at(double time) const {
+    io::RunFacts facts = run_.facts;
+    if (run_.tilt) {
+      const bool flat = run_.frame.dimensions == 2;
+      const double angle = run_.tilt->angle(time), g = run_.tilt->gravity;
+      facts.gravity = flat ? as_file_vector(gravity_on_incline<2>(g, angle))
+                           : as_file_vector(gravity_on_incline<3>(g, angle));
+    }
+    return facts;
+  }
   static std::string name(const char* folder, std::int64_t k) {
     return fmt::format("{}/{:06}.vtp", folder, k);
   }
