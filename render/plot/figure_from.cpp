@@ -101,7 +101,7 @@ class Builder {
     }
     for (const auto& s : recipe_.series) {
       if (s.panel) require_panel(*s.panel, "series panel");
-      require_series(s.match, s.panel);
+      if (!s.may_be_empty) require_series(s.match, s.panel);
     }
   }
 

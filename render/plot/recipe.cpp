@@ -135,6 +135,7 @@ static void describe(TomlReader& a, PanelRecipe& panel) {
 
 static void describe(TomlReader& a, SeriesRecipe& series) {
   a.required("match", series.match);
+  a.value("may_be_empty", series.may_be_empty);
   a.value("panel", series.panel);
   read_text(a, "label", series.label);
   a.choice("kind", series.kind, kind_words);

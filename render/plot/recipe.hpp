@@ -70,6 +70,8 @@ enum class KindChoice { automatic, line, markers, both, band, steps, bars, dots,
 
 struct SeriesRecipe {
   std::string match;
+  bool may_be_empty =
+      false;  ///< no slip if the table has none of that name, such as a mean that is nowhere steady
   std::optional<std::string> panel, label;
   KindChoice kind = KindChoice::automatic;
   int color = -1, marker = -1, dash = -1;  ///< -1: automatic

@@ -1,4 +1,7 @@
 #pragma once
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdint>
 #include <iosfwd>
 #include <span>
@@ -6,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "core/avalanche.hpp"
 #include "core/contact.hpp"
 #include "core/flush_subnormals.hpp"
@@ -46,6 +50,12 @@ struct EnergyAccount {
       for (std::size_t k = 0; k < turns<D>; ++k)
         rotation += 0.5 * now.inertia[i] * now.spin[k][i] * now.spin[k][i];
     }
+  }
+
+  template <class Archive>
+  void serialize(Archive& a) {
+    a(translation, rotation, elastic, gravity_work, normal_loss, shear_loss, wall_work, projection_work,
+      start);
   }
 };
 
@@ -91,7 +101,26 @@ class Engine {
   virtual void save(std::ostream& out) const = 0;
   virtual void restore(std::istream& in) = 0;
 
+ protected:
+  [[noreturn]] void leave_physics(const std::string& what) const {
+    throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): {}", now(), step(), what));
+  }
+  [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const {
+    leave_physics(fmt::format("grain {}: {}", grain, what));
+  }
+  /// A method that moves in steps may pass over what lies between: a grain that goes `way` in one, and may go `safe`, in
+  /// mean diameters.
+  [[noreturn]] void moved_too_far(std::size_t grain, double way, double safe) const {
+    leave_physics(grain, std::isnan(way)
+                             ? "its place is not a number"
+                             : fmt::format("it moves {:.3g} diameters in a step, more than {} that are safe: "
+                                           "give a shorter engine.time_step",
+                                           way, safe));
+  }
+
  private:
+  /// The time of what is being done: an engine that goes from event to event is ahead of its last step.
+  virtual double now() const { return time(); }
   virtual void advance(std::int64_t step) = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -223,6 +224,33 @@ GrainsView view_of(const Grains<D>& grains, std::span<const Array> force, const 
         f.words = column;
   });
   return view;
+}
+
+/// Brings the moving grains into the periods, and counts their turns around the domain.
+template <int D>
+void wrap_into(const Domain<D>& domain, Grains<D>& grains) {
+  for (std::size_t k = 0; k < D; ++k) {
+    const int axis = static_cast<int>(k);
+    if (!domain.periodic(axis)) continue;
+    const double lower = domain.lower[axis], length = domain.length[axis];
+    for (std::size_t i = 0; i < grains.moving; ++i) {
+      double& x = grains.position[k][i];
+      const double laps = std::floor((x - lower) / length);
+      x -= laps * length;
+      grains.wraps[k][i] += static_cast<int>(laps);
+    }
+  }
+}
+
+/// Where the moving grains are, counted on through the periods.
+template <int D>
+std::array<Array, D> unwrapped_places(const GrainsView& grains) {
+  std::array<Array, D> places;
+  for (std::size_t k = 0; k < D; ++k) {
+    places[k].resize(grains.moving);
+    for (std::size_t i = 0; i < grains.moving; ++i) places[k][i] = grains.unwrapped(i, k);
+  }
+  return places;
 }
 
 }  // namespace chute

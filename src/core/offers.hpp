@@ -12,7 +12,8 @@ struct Offers {
   bool independent = false;        ///< grains side by side that do not feel each other
   bool walls = false;              ///< planes that stand still
   bool only_floor = false;         ///< of these only level ones, below the grains
-  bool wall_shapes = false;        ///< segments, polygons and cylinders, and all of them moving
+  bool wall_shapes = false;        ///< segments, polygons and cylinders
+  bool wall_motion = false;        ///< walls that move
   bool wall_surfaces = false;      ///< friction and restitution of a wall's own
   bool wall_sticking = false;      ///< tangential restitution of a wall's own
   bool wall_temperatures = false;  ///< walls that heat

@@ -96,6 +96,7 @@ class BedOutput final : public Described<Output, BedOutput> {
   }
   bool wanted() const override { return bed; }
   void drop() override { bed = false; }
+  Needs needs() const override { return {.plane_of_beads = true}; }
   std::vector<std::string> files() const override { return {"bed_neighbours.csv", "bed_vertices.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };

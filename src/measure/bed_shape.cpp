@@ -14,10 +14,6 @@ class BedShape final : public Remembering<BedShape> {
   void look(const Look& look) override {
     if (!neighbours_.empty()) return;
     const auto grains = look.engine.grains();
-    constexpr std::size_t fewest = 3;
-    if (grains.dimensions != 3 || grains.size() < grains.moving + fewest ||
-        !(grains.period[0] > 0 && grains.period[1] > 0))
-      throw InputError("output.bed: tells of periodic planes of beads (dimensions = 3)");
     beds::Sheet sheet{grains.period[0], grains.period[1], {}};
     for (std::size_t i = grains.moving; i < grains.size(); ++i)
       sheet.place.push_back(sheet.wrapped({grains.position[0][i], grains.position[1][i]}));

@@ -59,6 +59,7 @@ class PairsOutput final : public TableOutput<PairsOutput, PairSpec> {
  public:
   static constexpr std::string_view word = "pairs",
                                     text = "the pair distribution, and the pressure of hard grains";
+  Needs needs() const override { return {.closed_box = true}; }
   double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
   std::vector<std::string> files() const override { return {"pairs.csv", "pressure.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;

@@ -211,8 +211,8 @@ std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers
     const auto& own = wall.surface;
     for (const auto& wrong :
          {lacks(offers.walls, "", true, "knows no walls"),
-          lacks(offers.wall_shapes, "", !wall.is_plane() || wall.moves(),
-                "knows only planes that stand still"),
+          lacks(offers.wall_shapes, "", !wall.is_plane(), "knows only planes"),
+          lacks(offers.wall_motion, "", wall.moves(), "knows only walls that stand still"),
           lacks(!offers.only_floor, ".normal", !wall.is_level(), "knows no walls but a level floor"),
           lacks(offers.wall_surfaces, ".friction", own.friction.has_value(),
                 "gives walls no friction of their own"),
@@ -295,6 +295,15 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
       return r;
     if (auto r = lacks(offers.impacts, "tells of no impacts", "output." + output.word(), needs.impacts))
       return r;
+    const auto repeats = [&](int axes) {
+      return std::all_of(periods.length.begin(), periods.length.begin() + axes,
+                         [](double length) { return length > 0; });
+    };
+    if (needs.plane_of_beads && !(scene.dimensions == 3 && ground.beads.size() >= 3 && repeats(2)))
+      return Refusal{"output." + output.word(),
+                     "tells of planes of beads that repeat along and across (dimensions = 3)"};
+    if (needs.closed_box && !repeats(scene.dimensions))
+      return Refusal{"output." + output.word(), "needs a domain that repeats in all directions"};
   }
   return method.refusal(setting);
 }

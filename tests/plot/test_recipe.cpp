@@ -123,6 +123,7 @@ TEST_CASE("slips are named with file and line") {
           std::string::npos);
   REQUIRE(message("[plot]\n[[plot.panel]]\nlabel = \"z\"") ==
           "fig.toml: plot: panel \"z\": no rows of that panel in fig.csv");
+  REQUIRE(message("[plot]\n[[plot.series]]\nmatch = \"e_n=0.5\"\nmay_be_empty = true").empty());
   REQUIRE(message("[plot]\n[[plot.series]]\nmatch = \"e_n=0.5\"") ==
           "fig.toml: plot: series \"e_n=0.5\": none of that name in fig.csv, did you mean \"e_n=0.4\"?");
   REQUIRE(message("[plot]\nx = { min = 2, max = 1 }").find("must be below max") != std::string::npos);

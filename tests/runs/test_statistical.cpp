@@ -1,5 +1,8 @@
 // Methods without dynamics as runs of scenes: packings, gases and shaking, and what other methods make of their packings.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "common/error.hpp"
 #include "folder.hpp"
@@ -96,6 +99,29 @@ TEST_CASE("what the methods without dynamics cannot do is refused at its key") {
              Catch::Contains("monte-carlo knows no friction"));
   CHECK_THAT(refused("hard-discs.toml", {"output.frames={every=2000}", "output.contacts=true"}),
              Catch::Contains("tells of no contacts"));
+  CHECK_THAT(refused("hard-discs.toml", {"domain.periodic=[\"x\"]"}),
+             Catch::Contains("output.pairs: needs a domain that repeats in all directions"));
+  CHECK_THAT(refused("chute-3d.toml", {"output.bed=true", "bed={kind=\"none\"}",
+                                       "domain={periodic=[\"x\"], size=[10, 10, 10]}"}),
+             Catch::Contains("output.bed: tells of planes of beads that repeat along and across"));
+}
+
+TEST_CASE("hard grains that overlap at the start are the scene's fault, told at its key") {
+  const Folder folder;
+  const auto file = folder / "two.vtk";
+  const auto at_distance = [&](double distance) {
+    std::ofstream(file) << fmt::format(
+        "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n"
+        "1 1 0\n{} 1 0\nVERTICES 2 4\n1 0\n1 1\nPOINT_DATA 2\n"
+        "SCALARS radius double 1\nLOOKUP_TABLE default\n0.5\n0.5\n",
+        1 + distance);
+    return scene::read_scene(
+        scenes + "hard-discs.toml",
+        {"grains.count=", "grains.diameter=", "grains.start={from=\"" + file.string() + "\"}"});
+  };
+  CHECK_NOTHROW(make_engine(at_distance(1.01)));
+  CHECK_THAT(message<InputError>([&] { make_engine(at_distance(0.9)); }),
+             Catch::Contains("grains.start: grain 0: it overlaps another; hard grains never do"));
 }
 
 TEST_CASE("scattered grains lie apart, and an intruder at the bottom") {

@@ -51,11 +51,8 @@ ContactEngine<D>::ContactEngine(Grains<D> grains, const ContactSetup<D>& setup)
   const auto moving = grains_.moving;
   bodies_.middle.resize(moving), bodies_.velocity.resize(moving), bodies_.spin.resize(moving);
   for (auto& f : force_) f.assign(grains_.size(), 0);
-  wrap();
-  for (std::size_t k = 0; k < D; ++k) {
-    start_place_[k].resize(moving);
-    for (std::size_t i = 0; i < moving; ++i) start_place_[k][i] = this->grains().unwrapped(i, k);
-  }
+  wrap_into(setup_.domain, grains_);
+  start_place_ = unwrapped_places<D>(this->grains());
   account_.start = energy().stored();
 }
 
@@ -91,12 +88,7 @@ void ContactEngine<D>::fly_half() {
     bodies_.spin[i] = grains_.turning(i);
     const Vec<D> way = half * bodies_.velocity[i];
     if (!(norm(way) <= farthest_move / 2 * setup_.diameter))
-      leave_physics(
-          i, std::isnan(norm(way))
-                 ? "its place is not a number"
-                 : fmt::format("it moves {:.3g} diameters in a step, more than {} that are safe: give a "
-                               "shorter engine.time_step",
-                               2 * norm(way) / setup_.diameter, farthest_move));
+      moved_too_far(i, 2 * norm(way) / setup_.diameter, farthest_move);
     bodies_.middle[i] = grains_.place(i) + way;
     for (int k = 0; k < D; ++k) grown_.position[static_cast<std::size_t>(k)][i] = bodies_.middle[i][k];
   }
@@ -170,22 +162,6 @@ void ContactEngine<D>::bounce(double begin, const Vec<D>& gravity) {
   }
 }
 
-/// The grains inside the domain, their turns around it counted.
-template <int D>
-void ContactEngine<D>::wrap() {
-  for (std::size_t k = 0; k < D; ++k) {
-    const int axis = static_cast<int>(k);
-    if (!setup_.domain.periodic(axis)) continue;
-    const double lower = setup_.domain.lower[axis], length = setup_.domain.length[axis];
-    for (std::size_t i = 0; i < grains_.moving; ++i) {
-      double& x = grains_.position[k][i];
-      const double off = std::floor((x - lower) / length);
-      x -= off * length;
-      grains_.wraps[k][i] += static_cast<int>(off);
-    }
-  }
-}
-
 /// The other half of the way, with the velocities of the step's end.
 template <int D>
 void ContactEngine<D>::arrive(const Vec<D>& gravity) {
@@ -216,7 +192,7 @@ void ContactEngine<D>::push_apart(double end, const Vec<D>& gravity) {
     if (setup_.tilt) account_.gravity_work += work;
   }
   deepest_ = projection_.deepest();
-  wrap();
+  wrap_into(setup_.domain, grains_);
 }
 
 /// The begin of a contact; `velocity` of i relative to its partner before.
@@ -309,12 +285,6 @@ std::vector<std::pair<std::string, double>> ContactEngine<D>::tells() const {
           {"deepest_overlap", deepest_}};
 }
 
-template <int D>
-void ContactEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(
-      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, grain, what));
-}
-
 /// Forces of the latest step on each grain.
 template <int D>
 void ContactEngine<D>::show() {
@@ -346,10 +316,8 @@ EnergyAccount ContactEngine<D>::energy() const {
 template <int D>
 template <class Archive, class Self>
 void ContactEngine<D>::transfer(Archive& archive, Self& self) {
-  auto& a = self.account_;
-  archive(self.grains_, self.touching_, self.touches_, self.start_place_, a.start, a.gravity_work,
-          a.normal_loss, a.shear_loss, a.wall_work, a.projection_work, self.record_, self.step_,
-          self.deepest_);
+  archive(self.grains_, self.touching_, self.touches_, self.start_place_, self.account_, self.record_,
+          self.step_, self.deepest_);
 }
 
 template <int D>

@@ -91,12 +91,10 @@ class ContactEngine final : public Engine {
   void bounce(double begin, const Vec<D>& gravity);
   void arrive(const Vec<D>& gravity);
   void push_apart(double end, const Vec<D>& gravity);
-  void wrap();
   void note_touches(double begin);
   void note_impact(const Touching<D>& t, double time, const Vec<D>& velocity);
   Contact told(const Touching<D>& t) const;
   void show();
-  [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);
 };

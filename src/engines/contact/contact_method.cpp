@@ -29,15 +29,14 @@ std::unique_ptr<Engine> made(World<D> world, const ContactMethod& method, const 
   setup.contact = {laws::ConstantRestitution{method.e_n(s)}, method.walton(s)};
   setup.static_friction = method.static_friction.value_or(setup.contact.tangential.friction);
   setup.time_step = method.step(s);
-  setup.diameter = std::min(s.mean_diameter, s.bead_spacing > 0 ? s.bead_diameter : s.mean_diameter);
+  setup.diameter = s.resolved_diameter();
   setup.reference_impulse = setup.time_step * s.mean_mass * s.gravity;
   setup.impact_velocity = impact_velocity_of(method, s);
   setup.stick_velocity = stick_velocity_of(method, s);
   setup.tolerance = method.tolerance, setup.iterations = method.iterations;
   setup.relaxation = method.relaxation;
   setup.impacts = method.impacts, setup.solver = method.solver;
-  const auto moving = static_cast<std::int64_t>(world.grains.moving);
-  setup.threads = static_cast<int>(std::clamp<std::int64_t>(moving / grains_per_thread, 1, threads));
+  setup.threads = s.useful_threads(threads, grains_per_thread);
   return std::make_unique<ContactEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -48,6 +47,7 @@ Offers ContactMethod::offers() const {
           .impacts = true,
           .walls = true,
           .wall_shapes = true,
+          .wall_motion = true,
           .wall_surfaces = true,
           .wall_sticking = true,
           .static_friction = true,

@@ -30,13 +30,7 @@ DsmcEngine<D>::DsmcEngine(Grains<D> grains, const DsmcSetup<D>& setup)
       cells_(grains_, setup_, obstacles_),
       collisions_(grains_, setup_),
       team_(std::make_unique<Team>(setup.threads)) {
-  for (std::size_t i = 0; i < grains_.moving; ++i) {
-    Vec<D> place = grains_.place(i);
-    std::array<int, D> laps{};
-    hard::Flight<D>::wrap(place, laps, setup_.domain);
-    for (std::size_t k = 0; k < D; ++k)
-      grains_.position[k][i] = place[static_cast<int>(k)], grains_.wraps[k][i] += laps[k];
-  }
+  wrap_into(setup_.domain, grains_);
   chunks_.resize((grains_.moving + chunk - 1) / chunk);
   start_potential_ = gravity_potential();
   start_energy_ = energy().stored();
@@ -172,16 +166,11 @@ void DsmcEngine<D>::heat() {
 }
 
 template <int D>
-void DsmcEngine<D>::leave_physics(const std::string& what) const {
-  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): {}", time(), step_, what));
-}
-
-template <int D>
 void DsmcEngine<D>::check_physics() {
   for (std::size_t i = 0; i < grains_.moving; ++i) {
     const double z = grains_.position[D - 1][i];
-    if (std::isnan(z)) leave_physics(fmt::format("grain {}: its place is not a number", i));
-    if (z < setup_.floor) leave_physics(fmt::format("grain {}: it fell through the bed", i));
+    if (std::isnan(z)) leave_physics(i, "its place is not a number");
+    if (z < setup_.floor) leave_physics(i, "it fell through the bed");
   }
   if (const double phi = cells_.densest_packing(); phi > densest)
     leave_physics(fmt::format(

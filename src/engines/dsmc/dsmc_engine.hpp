@@ -49,7 +49,6 @@ class DsmcEngine final : public Engine {
   void heat();
   void check_physics();
   double gravity_potential() const;
-  [[noreturn]] void leave_physics(const std::string& what) const;
 
   DsmcSetup<D> setup_;
   Grains<D> grains_;

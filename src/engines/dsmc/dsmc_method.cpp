@@ -48,9 +48,7 @@ std::unique_ptr<Engine> made(World<D> world, const DsmcMethod& method, const eng
   setup.heating = method.heating;
   setup.dense = method.dense;
   setup.seed = setting.seed;
-  const auto moving = static_cast<std::int64_t>(world.grains.moving);
-  setup.threads =
-      static_cast<int>(std::clamp<std::int64_t>(moving / DsmcMethod::grains_per_thread, 1, threads));
+  setup.threads = setting.useful_threads(threads, DsmcMethod::grains_per_thread);
   return std::make_unique<DsmcEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -67,6 +65,7 @@ Offers DsmcMethod::offers() const {
           .impacts = true,
           .walls = true,
           .wall_shapes = true,
+          .wall_motion = true,
           .wall_surfaces = true,
           .wall_sticking = true,
           .wall_temperatures = true,

@@ -74,11 +74,7 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
   crossing_.resize(moving);
   bursts_.resize(moving);
   show();
-  for (int k = 0; k < D; ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    start_place_[axis].resize(moving);
-    for (std::size_t i = 0; i < moving; ++i) start_place_[axis][i] = this->grains().unwrapped(i, axis);
-  }
+  start_place_ = unwrapped_places<D>(this->grains());
   account_.start = energy().stored();
   const double g = norm(setup_.gravity);
   double fastest = 0;
@@ -345,12 +341,6 @@ std::vector<Impact> EventEngine<D>::take_impacts() {
   return std::exchange(impacts_, {});
 }
 
-template <int D>
-void EventEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(
-      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", now_, step_, grain, what));
-}
-
 /// Brings what others see to the current tick. The flights stay as they are.
 template <int D>
 void EventEngine<D>::show() {
@@ -420,8 +410,7 @@ void EventEngine<D>::transfer(Archive& archive, Self& self) {
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
     archive(self.bursts_[i].begin, self.bursts_[i].collisions);
   }
-  archive(self.start_place_, self.meetings_, self.touches_, self.account_.start, self.account_.normal_loss,
-          self.account_.shear_loss, self.account_.wall_work, self.now_, self.step_);
+  archive(self.start_place_, self.meetings_, self.touches_, self.account_, self.now_, self.step_);
 }
 
 template <int D>

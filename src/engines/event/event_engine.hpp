@@ -88,6 +88,7 @@ class EventEngine final : public Engine {
     std::int64_t other_collisions = 0;
   };
 
+  double now() const override { return now_; }
   void advance(std::int64_t step) override;
 
   EventSetup<D> setup_;
@@ -141,7 +142,6 @@ class EventEngine final : public Engine {
                               laws::Collider<D>& a, laws::Collider<D>& b);
   laws::Collision<D> warm(std::size_t i, const Vec<D>& n, double T, const Vec<D>& surface,
                           laws::Collider<D>& a);
-  [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);
 };

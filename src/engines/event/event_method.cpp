@@ -33,6 +33,7 @@ Offers EventMethod::offers() const {
           .independent = true,
           .walls = true,
           .wall_shapes = true,
+          .wall_motion = true,
           .wall_surfaces = true,
           .wall_sticking = true,
           .wall_temperatures = true};

@@ -56,10 +56,7 @@ HybridEngine<D>::HybridEngine(Grains<D> grains, const HybridSetup<D>& setup)
   }
   for (auto& f : force_) f.assign(grains_.size(), 0);
   show();
-  for (std::size_t k = 0; k < D; ++k) {
-    start_place_[k].resize(grains_.moving);
-    for (std::size_t i = 0; i < grains_.moving; ++i) start_place_[k][i] = this->grains().unwrapped(i, k);
-  }
+  start_place_ = unwrapped_places<D>(this->grains());
   account_.start = energy().stored();
 }
 
@@ -117,13 +114,7 @@ double HybridEngine<D>::fly(double end) {
   for (std::size_t i = 0; i < grains_.moving; ++i) {
     const auto& f = flights_[i];
     const double way = norm(f.place_at(end) - f.place);
-    if (!(way <= farthest_move * setup_.diameter))
-      leave_physics(
-          i, std::isnan(way)
-                 ? "its place is not a number"
-                 : fmt::format("it moves {:.3g} diameters in a step, more than {} that are safe: give a "
-                               "shorter engine.time_step",
-                               way / setup_.diameter, farthest_move));
+    if (!(way <= farthest_move * setup_.diameter)) moved_too_far(i, way / setup_.diameter, farthest_move);
     farthest = std::max(farthest, way);
   }
   return farthest;
@@ -229,12 +220,6 @@ std::vector<std::pair<std::string, double>> HybridEngine<D>::tells() const {
           {"deepest_overlap", deepest_}};
 }
 
-template <int D>
-void HybridEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(
-      fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_, grain, what));
-}
-
 /// Brings what others see to the latest step.
 template <int D>
 void HybridEngine<D>::show() {
@@ -300,9 +285,8 @@ void HybridEngine<D>::transfer(Archive& archive, Self& self) {
     auto& f = self.flights_[i];
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
   }
-  auto& a = self.account_;
-  archive(self.start_place_, self.meetings_, self.touches_, a.start, a.gravity_work, a.normal_loss,
-          a.shear_loss, a.wall_work, a.projection_work, self.step_, self.hits_, self.put_off_, self.deepest_);
+  archive(self.start_place_, self.meetings_, self.touches_, self.account_, self.step_, self.hits_,
+          self.put_off_, self.deepest_);
 }
 
 template <int D>

@@ -87,7 +87,6 @@ class HybridEngine final : public Engine {
   Contact told(std::size_t i, std::size_t j, const Vec<D>& place, const Vec<D>& way,
                const Vec<D>& force) const;
   void show();
-  [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);
 };

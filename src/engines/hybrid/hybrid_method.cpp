@@ -19,13 +19,10 @@ std::unique_ptr<Engine> made(World<D> world, const HybridMethod& method, const e
         laws::PowerLawRestitution{1 - e_n, *method.restitution_velocity, method.restitution_exponent};
   setup.contact.tangential = method.walton(setting);
   setup.time_step = method.step(setting);
-  setup.diameter = std::min(setting.mean_diameter,
-                            setting.bead_spacing > 0 ? setting.bead_diameter : setting.mean_diameter);
+  setup.diameter = setting.resolved_diameter();
   setup.collisions_per_pair = static_cast<int>(method.collisions_per_step);
   setup.relaxation = method.relaxation;
-  const auto moving = static_cast<std::int64_t>(world.grains.moving);
-  setup.threads =
-      static_cast<int>(std::clamp<std::int64_t>(moving / HybridMethod::grains_per_thread, 1, threads));
+  setup.threads = setting.useful_threads(threads, HybridMethod::grains_per_thread);
   return std::make_unique<HybridEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -37,6 +34,7 @@ Offers HybridMethod::offers() const {
           .impacts = true,
           .walls = true,
           .wall_shapes = true,
+          .wall_motion = true,
           .wall_surfaces = true,
           .wall_sticking = true,
           .tilting = true,

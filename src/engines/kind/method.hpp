@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -41,6 +42,14 @@ struct Setting {
   double fastest = 0;                      ///< how fast the fastest grain is at the start, about
   std::vector<WallSurface> wall_surfaces;  ///< of [[wall]], in order: what is their own
 
+  /// What a step resolves: the smaller of a mean grain and a bead of the bed.
+  double resolved_diameter() const {
+    return bead_spacing > 0 ? std::min(mean_diameter, bead_diameter) : mean_diameter;
+  }
+  /// How many of the threads pay, where each needs so many moving grains.
+  int useful_threads(int threads, std::int64_t grains_each) const {
+    return static_cast<int>(std::clamp<std::int64_t>(grains / grains_each, 1, threads));
+  }
   laws::Pair reference() const { return pairs.front().pair; }
   const laws::NamedPair& shortest() const { return stiffest ? *stiffest : pairs.front(); }
   /// Names of units.

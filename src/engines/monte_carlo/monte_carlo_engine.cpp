@@ -66,16 +66,9 @@ MonteCarloEngine<D>::MonteCarloEngine(Grains<D> grains, const MonteCarloSetup<D>
   for (auto& force : no_force_) force.assign(grains_.size(), 0);
   for (auto& velocity : grains_.velocity) std::fill_n(velocity.begin(), grains_.moving, 0.0);
   for (auto& spin : grains_.spin) std::fill_n(spin.begin(), grains_.moving, 0.0);
-  for (std::size_t i = 0; i < grains_.moving; ++i)
-    for (int k = 0; k < D; ++k) {
-      if (!setup_.domain.periodic(k)) continue;
-      double& x = grains_.position[static_cast<std::size_t>(k)][i];
-      const double laps = std::floor((x - setup_.domain.lower[k]) / setup_.domain.length[k]);
-      x -= laps * setup_.domain.length[k];
-      grains_.wraps[static_cast<std::size_t>(k)][i] += static_cast<int>(laps);
-    }
+  wrap_into(setup_.domain, grains_);
   lay_cells();
-  check_overlaps();
+  check_overlaps(true);
 }
 
 template <int D>
@@ -85,15 +78,18 @@ void MonteCarloEngine<D>::lay_cells() {
 }
 
 template <int D>
-void MonteCarloEngine<D>::check_overlaps() {
+void MonteCarloEngine<D>::check_overlaps(bool at_start) {
+  // At the start it is the scene that is wrong, later a move.
+  const auto wrong = [&](std::size_t i, const char* what) {
+    if (!at_start) leave_physics(i, what);
+    throw InputError(fmt::format("grains.start: grain {}: {}; hard grains never do", i, what));
+  };
+  constexpr double rounding = 1e-12;
   for (std::size_t i = 0; i < grains_.moving; ++i) {
     const auto place = grains_.place(i);
-    if (slots_.overlaps(i, place, slots_.cell_of(place)))
-      throw WorkError(fmt::format(
-          "sweep {}: grain {} overlaps another; Monte Carlo moves hard grains, which never do", sweeps_, i));
+    if (slots_.overlaps(i, place, slots_.cell_of(place))) wrong(i, "it overlaps another");
     for (const auto& wall : setup_.walls)
-      if (wall.height(place) < grains_.radius[i] * (1 - 1e-12))
-        throw WorkError(fmt::format("sweep {}: grain {} lies in a wall", sweeps_, i));
+      if (wall.height(place) < grains_.radius[i] * (1 - rounding)) wrong(i, "it lies in a wall");
   }
 }
 
@@ -129,7 +125,7 @@ void MonteCarloEngine<D>::raise() {
   for (std::size_t i = 0; i < grains_.moving; ++i)
     z[i] += setup_.shaking->lift + setup_.shaking->expand * z[i];
   lay_cells();
-  check_overlaps();
+  check_overlaps(false);
 }
 
 template <int D>

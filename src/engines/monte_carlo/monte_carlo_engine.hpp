@@ -71,7 +71,7 @@ class MonteCarloEngine final : public Engine {
   void sweep_serially();
   void sweep_blocks();
   void adapt(double acceptance);
-  void check_overlaps();
+  void check_overlaps(bool at_start);
   double mean_height() const;
 
   /// A block of cells: along each direction from `first` on `many`, modulo the number of cells.

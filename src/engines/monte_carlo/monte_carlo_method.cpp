@@ -20,8 +20,7 @@ std::unique_ptr<Engine> made(World<D> world, const MonteCarloMethod& method, con
   setup.serial = method.order == MonteCarloMethod::Order::serial;
   if (method.shakes())
     setup.shaking = Shaking{method.lift * d, method.expand, method.sweeps, method.settled * d};
-  const auto useful = std::max<std::int64_t>(1, setting.grains / MonteCarloMethod::grains_per_thread);
-  const int members = setup.serial ? 1 : static_cast<int>(std::min<std::int64_t>(threads, useful));
+  const int members = setup.serial ? 1 : setting.useful_threads(threads, MonteCarloMethod::grains_per_thread);
   return std::make_unique<MonteCarloEngine<D>>(std::move(world.grains), setup, members);
 }
 

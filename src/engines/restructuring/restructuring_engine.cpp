@@ -79,10 +79,9 @@ void RestructuringEngine<D>::lay(std::size_t i) {
   }
   const auto rest = placer_.place(place, grains_.radius[i], random);
   if (!rest)
-    throw WorkError(
-        fmt::format("shake {}: grain {} found no rest: it fell through the bed, or its way has more than {} "
-                    "events",
-                    step_, i, Placer<D>::most_events));
+    leave_physics(i,
+                  fmt::format("it found no rest: it fell through the bed, or its way has more than {} events",
+                              Placer<D>::most_events));
   Supports& supports = supports_[i];
   supports.count = 0;
   for (int k = 0; k < rest->count; ++k)

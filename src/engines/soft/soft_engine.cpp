@@ -83,7 +83,8 @@ search::Candidates<D> SoftEngine<D>::candidates() {
   try {
     return list_.near(grains_, *team_);
   } catch (const NotANumber& error) {
-    leave_physics(error.grain, "its place is not a number: the time step is too long for these forces");
+    leave_physics(id_at(error.grain),
+                  "its place is not a number: the time step is too long for these forces");
   }
 }
 
@@ -272,13 +273,7 @@ template <int D>
 void SoftEngine<D>::check_floor() const {
   const auto& height = grains_.position[D - 1];
   for (std::size_t i = 0; i < grains_.moving; ++i)
-    if (height[i] < setup_.floor) leave_physics(i, "it fell through the bed");
-}
-
-template <int D>
-void SoftEngine<D>::leave_physics(std::size_t grain, const std::string& what) const {
-  throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): grain {}: {}", time(), step_,
-                              id_at(grain), what));
+    if (height[i] < setup_.floor) leave_physics(id_at(i), "it fell through the bed");
 }
 
 /// Where each grain is kept, by its id.
@@ -356,8 +351,7 @@ std::vector<Contact> SoftEngine<D>::contacts() const {
 template <int D>
 template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
-  archive(self.order_, self.grains_, self.integrator_.derivatives(), self.start_place_, self.account_.start,
-          self.account_.shear_loss, self.account_.wall_work, self.account_.gravity_work,
+  archive(self.order_, self.grains_, self.integrator_.derivatives(), self.start_place_, self.account_,
           self.sums_.normal_loss, self.sums_.shear_loss, self.step_, self.collecting_, self.touched_,
           self.touches_, self.stages_.memory(), self.walls_);
 }

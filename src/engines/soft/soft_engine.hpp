@@ -121,7 +121,6 @@ class SoftEngine final : public Engine {
     return k < grains_.size() ? bead : wall_id(k - grains_.size());
   }
   void check_floor() const;
-  [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);
 };

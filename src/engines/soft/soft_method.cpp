@@ -32,9 +32,7 @@ std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const eng
   setup.skins = usual_skins<D>(setting.mean_diameter);
   setup.deepest_overlap = method.deepest_overlap;
   setup.contact_time = setting.contact.impact(setting.reference()).contact_time;
-  const auto moving = static_cast<std::int64_t>(world.grains.moving);
-  setup.threads =
-      static_cast<int>(std::clamp<std::int64_t>(moving / SoftMethod::grains_per_thread, 1, threads));
+  setup.threads = setting.useful_threads(threads, SoftMethod::grains_per_thread);
   return std::make_unique<SoftEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -46,6 +44,7 @@ Offers SoftMethod::offers() const {
           .independent = true,
           .walls = true,
           .wall_shapes = true,
+          .wall_motion = true,
           .wall_surfaces = true,
           .tilting = true,
           .threads = true};
