@@ -39,7 +39,7 @@ class Run {
     bool wanted = true;
     while (engine().step() < last && wanted) {
       advance();
-      if (checkpoint_due_.index_at(engine().step()) >= 0) save();
+      if (checkpoint_due_.index_at(engine().step()) >= 0 && worth_saving()) save();
       wanted = report();
     }
     save();
@@ -57,7 +57,8 @@ class Run {
   RunDirectory directory_;
   measure::Schedule checkpoint_due_;
   std::int64_t steps_per_report_ = 1000;
-  Clock::time_point reported_ = Clock::now();
+  Clock::time_point reported_ = Clock::now(), saved_ = reported_;
+  Clock::duration saving_takes_{};
   std::string started_ = RunRecord::now();
 
   Engine& engine() { return session_.engine(); }
@@ -87,11 +88,20 @@ class Run {
     save();  // a run that leaves physics right away leaves a checkpoint too
   }
 
+  /// What a kill may cost against what all checkpoints cost: of many grains and short intervals a run would do nothing else.
+  bool worth_saving() const {
+    constexpr int work_per_cost = 19;  // checkpoints take a twentieth of the time at most
+    return Clock::now() - saved_ >= work_per_cost * saving_takes_;
+  }
+
   /// Everything on disk as of now; the checkpoint last, so that it never promises files that are not there.
   void save() {
+    const auto before = Clock::now();
     session_.write();
     io::write_checkpoint(directory_.file("checkpoint"), resolved_, session_.grains(),
                          [&](std::ostream& out) { session_.save(out); });
+    saved_ = Clock::now();
+    saving_takes_ = saved_ - before;
   }
 
   void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {

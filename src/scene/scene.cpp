@@ -132,7 +132,9 @@ struct Outputs {
 template <class Archive>
 static void describe(Archive& a, Outputs& outputs) {
   for (auto& kind : outputs.kinds) chute::describe(a, *kind);
-  a.value("checkpoint", outputs.checkpoint, positive, "time between checkpoints; default a tenth of the run");
+  a.value(
+      "checkpoint", outputs.checkpoint, positive,
+      "time between checkpoints, or longer where they would take more than a twentieth of the work; default a tenth of the run");
 }
 
 struct Run {
