@@ -4,15 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/error.hpp"
 
 namespace chute::plot {
 
 double Span::fraction(double value) const {
-  if (scale == Scale::linear) return (value - low) / (high - low);
+  if (scale == Scale::linear) {
+    if (std::isfinite(high - low)) return (value - low) / (high - low);
+    return (value / 2 - low / 2) / (high / 2 - low / 2);  // from -1e308 to 1e308
+  }
   if (!(value > 0)) return unknown;
-  return std::log(value / low) / std::log(high / low);
+  return (std::log(value) - std::log(low)) / (std::log(high) - std::log(low));
 }
 
 void Extent::include(double value, Scale scale, bool marker) {
@@ -36,6 +40,10 @@ void Extent::include(const Extent& other) {
 namespace {
 
 constexpr double room = 0.045;  // of the range, beside the outermost markers
+constexpr double least = std::numeric_limits<double>::denorm_min(), most = std::numeric_limits<double>::max();
+
+/// Room beyond the data must not leave what doubles can hold.
+double held(double value) { return std::clamp(value, -most, most); }
 
 Span padded_linear(const Axis& axis, Extent e) {
   if (e.low > e.high) {
@@ -49,72 +57,107 @@ Span padded_linear(const Axis& axis, Extent e) {
   const double low = axis.min.value_or(e.low), high = axis.max.value_or(e.high);
   Span span{low, high, Scale::linear};
   const double range = high - low, size = std::max(std::abs(low), std::abs(high));
-  if (range < 1e-9 * size || size == 0) {  // labels of 10 digits are the most that can be read
-    const double wider = size > 0 ? 0.1 * size : 0.5;
-    if (!axis.min) span.low -= wider;
-    if (!axis.max) span.high += wider;
+  if (!std::isfinite(range)) return span;
+  if (range < 1e-9 * size || size == 0) {  // such differences are rounding, not data
+    const double wider = size > 0 ? std::max(0.1 * size, std::numeric_limits<double>::min()) : 0.5;
+    if (!axis.min) span.low = held(span.low - wider);
+    if (!axis.max) span.high = held(span.high + wider);
     return span;
   }
   const double space = room * range;
   const bool on_ground = e.from_zero && high == 0, on_floor = e.from_zero && low == 0;
-  if (!axis.max && !on_ground && (e.keep_off || e.marker_high > high - space)) span.high += space;
+  if (!axis.max && !on_ground && (e.keep_off || e.marker_high > high - space))
+    span.high = held(span.high + space);
   if (axis.min || on_floor) return span;
   // near zero start at zero, unless markers sit right there
   if (low >= 0 && low < 0.2 * high && e.marker_low > space)
     span.low = 0;
   else if (e.keep_off || e.marker_low < low + space)
-    span.low -= space;
+    span.low = held(span.low - space);
   return span;
 }
 
 Span padded_log(const Axis& axis, Extent e) {
   if (e.low > e.high) {
     e.low = axis.max ? *axis.max / 100 : axis.min.value_or(0.1);
-    e.high = 100 * e.low;
+    e.low = std::max(e.low, least);
+    e.high = held(100 * e.low);
   }
   Span span{axis.min.value_or(e.low), axis.max.value_or(e.high), Scale::log};
-  if (span.high / span.low < 1 + 1e-9) {
-    if (!axis.min) span.low /= 3;
-    if (!axis.max) span.high *= 3;
+  const double ratio = std::log(span.high) - std::log(span.low);
+  if (ratio < 1e-9) {
+    if (!axis.min) span.low = std::max(span.low / 3, least);
+    if (!axis.max) span.high = held(span.high * 3);
     return span;
   }
-  const double factor = std::pow(span.high / span.low, room);
+  const double factor = std::exp(room * ratio);
   const bool pad_low = e.keep_off || e.marker_low < span.low * factor;
   const bool pad_high = e.keep_off || e.marker_high > span.high / factor;
-  if (!axis.min && pad_low) span.low /= factor;
-  if (!axis.max && pad_high) span.high *= factor;
+  if (!axis.min && pad_low) span.low = std::max(span.low / factor, least);
+  if (!axis.max && pad_high) span.high = held(span.high * factor);
   return span;
 }
 
 double power_of_ten(int n) { return std::pow(10.0, n); }
+/// value × 10^n, also where 10^n is no double.
+double times_ten(double value, int n) { return value * power_of_ten(n / 2) * power_of_ten(n - n / 2); }
 int decade_of(double value) {
   int n = static_cast<int>(std::floor(std::log10(value)));
-  if (power_of_ten(n + 1) <= value * (1 + 1e-12)) ++n;
+  if (times_ten(value, -n - 1) >= 1 - 1e-12) ++n;
   return n;
 }
 
 /// Labels of numbers whose last digit counts 10^`last`: all with the same decimals, large and tiny ones over
-/// a factor.
+/// a factor; what differs in late digits only stands for its distance from a round number, which the factor names.
 struct Labels {
   std::vector<std::string> texts;
   std::string factor;
 };
+
+constexpr int most_digits = 8;  // labels of more cannot be compared by eye
+
+/// The round number below all values that leaves only the digits in which they differ; 0 if they need none.
+double offset_of(const std::vector<double>& values, double largest, int last) {
+  if (values.empty() || !(largest > 0) || decade_of(largest) - last < most_digits) return 0;
+  const double range = values.back() - values.front();
+  if (!std::isfinite(range)) return 0;
+  const int digit = (range > 0 ? decade_of(range) : last) + 1;
+  const double steps = std::floor(times_ten(values.front(), -digit));
+  const double offset = times_ten(steps, digit);
+  return std::abs(steps) < 1e15 && std::isfinite(offset) ? offset : values.front();
+}
+
+/// A number in full, or over a power of ten.
+std::string full(double value) {
+  const int decade = value == 0 ? 0 : decade_of(std::abs(value));
+  constexpr int longest = 12;
+  if (decade >= 0 && decade < longest) return fmt::format("{:.15g}", value);
+  return fmt::format("{:.15g}\\times10^{{{}}}", times_ten(value, -decade), decade);
+}
+
 Labels label(const std::vector<double>& values, int last) {
   double largest = 0;
   for (double v : values) largest = std::max(largest, std::abs(v));
+  const double offset = offset_of(values, largest, last);
+  if (offset != 0) {
+    largest = 0;
+    for (double v : values) largest = std::max(largest, std::abs(v - offset));
+  }
   int shift = 0;
   if (largest > 0 && (largest >= 99999.5 || largest < 1e-3 || (last < -4 && largest < 1)))
     shift = decade_of(largest);
-  const int decimals = std::max(0, shift - last);
+  const int decimals = std::clamp(shift - last, 0, 17);
   Labels labels;
   for (double v : values) {
-    const double scaled = v / power_of_ten(shift);
+    const double scaled = times_ten(v - offset, -shift);
     auto text = fmt::format("{:.{}f}", scaled, decimals);
     if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-')
       text.erase(0, 1);  // no minus zero
     labels.texts.push_back("$" + text + "$");
   }
   if (shift != 0) labels.factor = fmt::format("$\\times10^{{{}}}$", shift);
+  if (offset != 0)
+    labels.factor += fmt::format("${}{}{}$", shift != 0 ? "\\," : "", offset > 0 ? "+" : "", full(offset));
   return labels;
 }
 
@@ -157,32 +200,50 @@ class Ruler {
   double wide_gap() const { return 1.3 * size_; }
   double narrow_gap() const { return (horizontal_ ? 0.6 : 0.45) * size_; }
 
+  /// Within rounding, which is all that is left of an axis whose ends agree but for it.
+  bool is_on_axis(double value) const {
+    const double range = span_.high - span_.low, slack = std::isfinite(range) ? 1e-6 * range : 0;
+    return value >= span_.low - slack && value <= span_.high + slack &&
+           (span_.scale == Scale::linear || value > 0);
+  }
+
+  /// Of counts beyond it doubles miss some.
+  static constexpr double countable = 9e15;
+
   Ticks with_step(double mantissa, int exponent) const {
-    const double step = mantissa * power_of_ten(exponent);
+    const double step = times_ten(mantissa, exponent);
     Ticks ticks;
     std::vector<double> values;
     const double first = std::ceil(span_.low / step - 1e-7), last = std::floor(span_.high / step + 1e-7);
-    if (last - first > 200) return ticks;
+    if (!std::isfinite(step) || step == 0 || !(last - first <= 200)) return ticks;
+    if (std::max(std::abs(first), std::abs(last)) > countable) return ticks;
     for (double i = first; i <= last; ++i) {
       // through the decimal form: 3 * 0.1 must be 0.3
-      const double value = exponent < 0 ? i * mantissa / power_of_ten(-exponent) : i * step;
-      if (span_.scale == Scale::log && value <= 0) continue;
+      const bool divides = exponent < 0 && exponent > -300;
+      const double value = divides ? i * mantissa / power_of_ten(-exponent) : i * step;
+      if (!is_on_axis(value) || (!values.empty() && value <= values.back())) continue;
       values.push_back(value);
     }
-    const auto labels = label(values, exponent);
-    for (std::size_t i = 0; i < values.size(); ++i) ticks.major.push_back({values[i], labels.texts[i]});
-    ticks.factor = labels.factor;
+    take(ticks, values, exponent);
     add_minor(ticks, step / (mantissa == 2 ? 4 : 5));
     return ticks;
   }
 
+  static void take(Ticks& ticks, const std::vector<double>& values, int last_digit) {
+    const auto labels = label(values, last_digit);
+    for (std::size_t i = 0; i < values.size(); ++i) ticks.major.push_back({values[i], labels.texts[i]});
+    ticks.factor = labels.factor;
+  }
+
   void add_minor(Ticks& ticks, double step) const {
-    if ((span_.high - span_.low) / step > length_ / 3) return;
-    for (double i = std::ceil(span_.low / step - 1e-7); i <= std::floor(span_.high / step + 1e-7); ++i) {
+    if (!((span_.high - span_.low) / step <= length_ / 3)) return;
+    const double first = std::ceil(span_.low / step - 1e-7), last = std::floor(span_.high / step + 1e-7);
+    if (std::max(std::abs(first), std::abs(last)) > countable) return;
+    for (double i = first; i <= last; ++i) {
       const double value = i * step;
       const bool taken = std::any_of(ticks.major.begin(), ticks.major.end(),
                                      [&](const Tick& t) { return std::abs(t.value - value) < 0.01 * step; });
-      if (!taken && !(span_.scale == Scale::log && value <= 0)) ticks.minor.push_back(value);
+      if (!taken && is_on_axis(value)) ticks.minor.push_back(value);
     }
   }
 
@@ -190,7 +251,8 @@ class Ruler {
   /// labels.
   Ticks linear(bool wanted) const {
     const double range = span_.high - span_.low;
-    const int top = decade_of(range) + 1;
+    const int top =
+        std::isfinite(range) ? decade_of(range) + 1 : std::numeric_limits<double>::max_exponent10 + 1;
     Ticks tight, few;
     for (int exponent = top - 4; exponent <= top; ++exponent)
       for (int mantissa : {1, 2, 5}) {
@@ -201,14 +263,18 @@ class Ruler {
         if (ticks.major.size() >= 3 || !wanted) return ticks;
         if (few.major.empty()) few = ticks;
       }
-    return tight.major.size() > few.major.size() ? tight : few;
+    auto& best = tight.major.size() > few.major.size() ? tight : few;
+    // ends that differ in their last digits have no round number between them: they are told themselves
+    if (best.major.empty()) take(best, {span_.low, span_.high}, decade_of(std::min(range, most)) - 1);
+    return best;
   }
 
   Ticks logarithmic() const {
-    const int first = static_cast<int>(std::ceil(std::log10(span_.low) - 1e-9));
-    const int last = static_cast<int>(std::floor(std::log10(span_.high) + 1e-9));
-    if (last > first && span_.high / span_.low > 12) return decades(first, last);
-    if (span_.high / span_.low > 3) {
+    const double low = std::log10(span_.low), high = std::log10(span_.high);
+    const int first = static_cast<int>(std::ceil(low - 1e-9)),
+              last = static_cast<int>(std::floor(high + 1e-9));
+    if (last > first && high - low > std::log10(12.0)) return decades(first, last);
+    if (high - low > std::log10(3.0)) {
       auto ticks = one_two_five();
       if (ticks.major.size() >= 3 && fits(ticks.major, narrow_gap())) return ticks;
     }
@@ -217,14 +283,19 @@ class Ruler {
 
   Ticks decades(int first, int last) const {
     Ticks ticks;
-    for (int stride = 1;; ++stride) {
+    // beyond six only those strides that a reader counts in
+    const auto next = [](int stride) { return stride < 6 ? stride + 1 : stride < 10 ? 10 : stride + 10; };
+    for (int stride = 1;; stride = next(stride)) {
       ticks.major.clear();
       for (int n = first; n <= last; ++n)
-        if (n % stride == 0) ticks.major.push_back({power_of_ten(n), fmt::format("$10^{{{}}}$", n)});
+        if (n % stride == 0 && power_of_ten(n) > 0)
+          ticks.major.push_back({power_of_ten(n), fmt::format("$10^{{{}}}$", n)});
       if (fits(ticks.major, horizontal_ ? 0.8 * size_ : 0.7 * size_) || ticks.major.size() <= 1) {
-        const double decade = length_ / std::log10(span_.high / span_.low);
+        const double decade = length_ / (std::log10(span_.high) - std::log10(span_.low));
         for (int n = first - 1; n <= last; ++n) {
-          if (stride > 1 && n >= first && n % stride != 0) ticks.minor.push_back(power_of_ten(n));
+          constexpr double crowded = 2.5;  // points: closer ticks run together
+          if (stride > 1 && decade >= crowded && n >= first && n % stride != 0)
+            ticks.minor.push_back(power_of_ten(n));
           if (stride > 1 || decade < 4 * size_ / 3) continue;
           for (int digit = 2; digit <= 9; ++digit) {
             const double value = digit * power_of_ten(n);
@@ -250,9 +321,7 @@ class Ruler {
         else
           ticks.minor.push_back(value);
       }
-    const auto labels = label(values, finest);
-    for (std::size_t i = 0; i < values.size(); ++i) ticks.major.push_back({values[i], labels.texts[i]});
-    ticks.factor = labels.factor;
+    take(ticks, values, finest);
     return ticks;
   }
 };
@@ -279,8 +348,11 @@ Span span_of(const Axis& axis, const Extent& extent) {
   Extent data = extent;
   // data that lie wholly beyond the one given limit leave the other to choose
   if (axis.min && data.high <= *axis.min)
-    data.high = axis.scale == Scale::log ? *axis.min * 10 : *axis.min + 1;
-  if (axis.max && data.low >= *axis.max) data.low = axis.scale == Scale::log ? *axis.max / 10 : *axis.max - 1;
+    data.high = held(axis.scale == Scale::log ? *axis.min * 10
+                                              : *axis.min + std::max(1.0, 0.1 * std::abs(*axis.min)));
+  if (axis.max && data.low >= *axis.max)
+    data.low = axis.scale == Scale::log ? std::max(*axis.max / 10, least)
+                                        : held(*axis.max - std::max(1.0, 0.1 * std::abs(*axis.max)));
   return axis.scale == Scale::linear ? padded_linear(axis, data) : padded_log(axis, data);
 }
 

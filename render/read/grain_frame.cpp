@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "read/number.hpp"
 #include "read/vtk_points.hpp"
 
 namespace chute::read {
@@ -38,9 +41,31 @@ const PointArray* find_one(const std::vector<PointArray>& arrays, std::string_vi
   return found == arrays.end() ? nullptr : &*found;
 }
 
+/// The name of an array without what writers add to it: a unit in brackets, blanks, `particle_`, capitals.
+std::string plain(std::string_view name) {
+  if (const auto unit = name.find_first_of("[("); unit != std::string_view::npos && unit > 0)
+    name = name.substr(0, unit);
+  std::string text;
+  for (const char c : trimmed(name)) text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const std::string_view of : {"particle", "grain"})
+    if (text.starts_with(of) && text.size() > of.size() + 1 &&
+        std::string_view("_ -.").find(text[of.size()]) != std::string_view::npos)
+      text.erase(0, of.size() + 1);
+  while (text.ends_with('_')) text.pop_back();
+  return text;
+}
+
+bool is_plain(Names names, std::string_view name) {
+  const auto text = plain(name);
+  return std::any_of(names.begin(), names.end(), [&](std::string_view n) { return plain(n) == text; });
+}
+
 const PointArray* find_any(const std::vector<PointArray>& arrays, Names names) {
   for (auto name : names)
     if (const auto* array = find_one(arrays, name)) return array;
+  for (auto name : names)
+    for (const auto& array : arrays)
+      if (plain(array.name) == plain(name)) return &array;
   return nullptr;
 }
 
@@ -58,13 +83,18 @@ bool has(Names names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+PointArray* find_any(std::vector<PointArray>& arrays, Names names) {
+  return const_cast<PointArray*>(find_any(std::as_const(arrays), names));
+}
+
 /// Whether the file's array `name` is one of those asked for, or may be a component of it.
 bool is_wanted(std::string_view name, const std::vector<std::string>& wanted) {
-  if (wanted.empty() || has(radius_names, name) || has(diameter_names, name) || has(type_names, name))
+  if (wanted.empty() || is_plain(radius_names, name) || is_plain(diameter_names, name) ||
+      has(type_names, name))
     return true;
   return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& one) {
     const bool alias = std::any_of(std::begin(groups), std::end(groups),
-                                   [&](Names group) { return has(group, one) && has(group, name); });
+                                   [&](Names group) { return has(group, one) && is_plain(group, name); });
     const bool part = std::any_of(std::begin(vectors), std::end(vectors), [&](const Vector& v) {
       return v.name == one && name.size() == v.stem.size() + 1 && name.starts_with(v.stem);
     });
@@ -101,15 +131,40 @@ std::vector<double> radii(const GrainFrame& frame, std::optional<double> given) 
       frame.names.empty() ? "none" : fmt::format("{}", fmt::join(frame.names, ", "))));
 }
 
-void check(const GrainFrame& frame) {
-  const auto fail = [&](const std::string& what) { throw InputError(frame.file.string() + ": " + what); };
-  for (std::size_t i = 0; i < frame.size(); ++i) {
-    const Eigen::Vector3d centre = frame.centre(i);
-    for (int c = 0; c < 3; ++c)
-      if (!std::isfinite(centre[c])) fail(fmt::format("point {}: {} is not a finite number", i, "xyz"[c]));
-    if (!(frame.radius[i] > 0) || !std::isfinite(frame.radius[i]))
-      fail(fmt::format("point {}: radius {} is not allowed, must be > 0", i, frame.radius[i]));
+/// Codes in the plane write vectors of two components.
+void fill_vectors(GrainFrame& frame) {
+  for (const Names names : {Names(velocity_names), Names(force_names)}) {
+    auto* array = find_any(frame.arrays, names);
+    if (!array || array->components != 2) continue;
+    PointArray full{array->name, 3, {}};
+    full.values.reserve(3 * frame.size());
+    for (std::size_t i = 0; i < frame.size(); ++i)
+      for (const double part : {array->at(i, 0), array->at(i, 1), 0.0}) full.values.push_back(part);
+    *array = std::move(full);
   }
+}
+
+/// A grain without a place or a size cannot be drawn: what an unstable step threw out, deleted and reserved places.
+void leave_out_lost(GrainFrame& frame) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    if (frame.centre(i).allFinite() && frame.radius[i] > 0 && std::isfinite(frame.radius[i]))
+      kept.push_back(i);
+  frame.left_out = frame.size() - kept.size();
+  if (frame.left_out == 0) return;
+  if (kept.empty())
+    throw InputError(
+        fmt::format("{}: none of its {} points has a place and a radius > 0 (point 0: x = {}, radius = {})",
+                    frame.file.string(), frame.size(), frame.x[0], frame.radius[0]));
+  const auto keep = [&](std::vector<double>& values, std::size_t components) {
+    std::vector<double> rest;
+    rest.reserve(kept.size() * components);
+    for (const std::size_t i : kept)
+      for (std::size_t c = 0; c < components; ++c) rest.push_back(values[i * components + c]);
+    values = std::move(rest);
+  };
+  for (auto* values : {&frame.x, &frame.y, &frame.z, &frame.radius}) keep(*values, 1);
+  for (auto& array : frame.arrays) keep(array.values, static_cast<std::size_t>(array.components));
 }
 
 }  // namespace
@@ -122,17 +177,17 @@ const PointArray* GrainFrame::find(std::string_view name) const {
 }
 
 bool GrainFrame::is_fixed(std::size_t grain) const {
-  const auto* type = find_one(arrays, fields::type.name);
+  const auto* type = own ? find_one(arrays, fields::type.name) : nullptr;
   return type && type->components == 1 && type->at(grain) == 0;
 }
 
-GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std::optional<double> radius,
+GrainFrame parse_frame(std::vector<FileBytes> parts, std::optional<double> radius,
                        const std::vector<std::string>& wanted) {
+  const auto path = parts.front().path;
   VtkPoints points =
-      parse_vtk(std::move(bytes), path, [&](std::string_view name) { return is_wanted(name, wanted); });
+      parse_vtk(std::move(parts), [&](std::string_view name) { return is_wanted(name, wanted); });
   GrainFrame frame;
   frame.file = path;
-  if (points.x.empty()) throw InputError(path.string() + ": no points");
   frame.x = std::move(points.x), frame.y = std::move(points.y), frame.z = std::move(points.z);
   frame.arrays = std::move(points.point_arrays), frame.names = std::move(points.point_names);
   for (const auto& [name, text] : points.field_texts) {
@@ -151,9 +206,16 @@ GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std
   if (const auto* gravity = find_one(points.field_arrays, fields::gravity);
       gravity && gravity->values.size() == 3)
     frame.gravity = Eigen::Map<const Eigen::Vector3d>(gravity->values.data());
+  frame.own = !frame.units.empty() || find_one(points.field_arrays, fields::gravity) ||
+              find_one(points.field_arrays, fields::domain);
+  if (frame.size() == 0) {
+    frame.dimensions = 2;
+    return frame;
+  }
   for (const Vector& vector : vectors) join_components(frame, vector);
   frame.radius = radii(frame, radius);
-  check(frame);
+  fill_vectors(frame);
+  leave_out_lost(frame);
   const auto [low, high] = std::minmax_element(frame.z.begin(), frame.z.end());
   frame.dimensions = *low == *high && frame.period(2) == 0 ? 2 : 3;
   return frame;
@@ -161,7 +223,7 @@ GrainFrame parse_frame(std::string bytes, const std::filesystem::path& path, std
 
 GrainFrame read_frame(const std::filesystem::path& path, std::optional<double> radius,
                       const std::vector<std::string>& wanted) {
-  return parse_frame(read_file(path), path, radius, wanted);
+  return parse_frame(read_parts(path), radius, wanted);
 }
 
 }  // namespace chute::read

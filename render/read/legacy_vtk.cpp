@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "read/number.hpp"
+
 namespace chute::read {
 namespace {
 
@@ -118,6 +120,7 @@ class Reader {
   void cells(int version, std::string_view keyword);
   void attribute(const std::string& keyword);
   void take_cells();
+  void metadata_lines();
 };
 
 std::vector<double> Reader::values(std::size_t number, std::string_view type_name, std::string_view of) {
@@ -133,15 +136,10 @@ std::vector<double> Reader::values(std::size_t number, std::string_view type_nam
     for (std::size_t i = 0; i < number; ++i) {
       const auto text = word();
       if (text.empty()) fail(fmt::format("{}: {} values, but {} are there", of, number, i));
-      double value = 0;
-      const auto [end, error] =
-          std::from_chars(text.data() + text.starts_with('+'), text.data() + text.size(), value);
-      if ((error != std::errc() && error != std::errc::result_out_of_range) ||
-          end != text.data() + text.size())
-        fail(fmt::format("{}: \"{}\" is not a number", of, text));
-      result.push_back(value);
+      const auto value = number_in(text);
+      if (!value) fail(fmt::format("{}: \"{}\" is not a number", of, text));
+      result.push_back(*value);
     }
-    if (number > 0 && at_ == all_.size()) fail(fmt::format("{}: the last line has no end", of));
     return result;
   }
   line();  // the values begin behind the line that announced them
@@ -183,9 +181,7 @@ void Reader::field(std::vector<PointArray>& into, bool of_points) {
   const std::string name(word());
   const std::size_t arrays = count("FIELD " + name);
   for (std::size_t i = 0; i < arrays; ++i) {
-    if (upper(look_ahead()) == "METADATA")
-      while (!line().empty()) {
-      }
+    if (upper(look_ahead()) == "METADATA") word(), metadata_lines();
     PointArray array;
     array.name = decoded(word());
     if (array.name.empty()) fail(fmt::format("FIELD {}: {} arrays, but {} are there", name, arrays, i));
@@ -201,6 +197,13 @@ void Reader::field(std::vector<PointArray>& into, bool of_points) {
     }
     array.values = values(components * tuples, type, fmt::format("array \"{}\"", array.name));
     into.push_back(std::move(array));
+  }
+}
+
+/// What VTK knows of an array, behind the word METADATA and up to an empty line.
+void Reader::metadata_lines() {
+  line();
+  while (at_ < all_.size() && !line().empty()) {
   }
 }
 
@@ -266,6 +269,7 @@ void Reader::attribute(const std::string& keyword) {
 }
 
 void Reader::take_cells() {
+  result_.cells_in_all = cells_.size();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i].size() < 2) continue;
     for (const double p : cells_[i])
@@ -281,7 +285,8 @@ VtkPoints Reader::read() {
   const auto number = head.substr(std::min(head.size(), std::string_view("# vtk DataFile Version ").size()));
   std::from_chars(number.data(), number.data() + number.size(), version);
   line();  // a title
-  const auto form = upper(line());
+  auto form = upper(line());
+  while (form.empty() && at_ < all_.size()) form = upper(line());
   if (form != "ASCII" && form != "BINARY") fail("the third line says neither ASCII nor BINARY");
   binary_ = form == "BINARY";
   bool has_points = false;
@@ -311,9 +316,7 @@ VtkPoints Reader::read() {
       tuples_ = count(keyword);
       data_ = keyword == "POINT_DATA" ? &result_.point_arrays : &result_.cell_arrays;
     } else if (keyword == "METADATA") {
-      line();
-      while (at_ < all_.size() && !line().empty()) {
-      }
+      metadata_lines();
     } else if (keyword == "SCALARS" || keyword == "VECTORS" || keyword == "NORMALS" || keyword == "TENSORS" ||
                keyword == "TENSORS6" || keyword == "TEXTURE_COORDINATES" || keyword == "GLOBAL_IDS" ||
                keyword == "PEDIGREE_IDS" || keyword == "COLOR_SCALARS" || keyword == "LOOKUP_TABLE") {

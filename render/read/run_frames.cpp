@@ -6,21 +6,29 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "read/number.hpp"
 
 namespace chute::read {
 namespace fs = std::filesystem;
 namespace {
 
+struct Entry {
+  fs::path path;
+  std::optional<double> time;
+  std::string part;  ///< its group and number
+};
+
 struct Index {
   fs::path file;
-  std::vector<FrameFile> frames;
+  std::vector<Entry> entries;
   bool is_collection = false;
   std::string wrong;  // expat is C: what is wrong is said after it has returned
 };
@@ -30,19 +38,46 @@ void on_element(void* user, const XML_Char* name, const XML_Char** attributes) {
   const std::string_view element = name;
   if (element == "Collection") index.is_collection = true;
   if (element != "DataSet" || !index.wrong.empty()) return;
-  FrameFile frame;
+  Entry entry;
+  std::string group, part = "0";
   for (; *attributes; attributes += 2) {
     const std::string_view key = attributes[0], value = attributes[1];
-    if (key == "file") frame.path = index.file.parent_path() / value;
+    if (key == "file") entry.path = index.file.parent_path() / value;
+    if (key == "group") group = value;
+    if (key == "part") part = trimmed(value);
     if (key != "timestep") continue;
-    double time = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), time);
-    if (error != std::errc() || end != value.data() + value.size() || !std::isfinite(time))
+    entry.time = number_in(value);
+    if (!entry.time || !std::isfinite(*entry.time))
       index.wrong = fmt::format("timestep \"{}\" is not a number", value);
-    frame.time = time;
   }
-  if (frame.path.empty()) index.wrong = "a DataSet without a file";
-  index.frames.push_back(std::move(frame));
+  if (entry.path.empty()) index.wrong = "a DataSet without a file";
+  entry.part = fmt::format("{} {}", part, group);
+  index.entries.push_back(std::move(entry));
+}
+
+/// Frames in the order of their times. An entry without one stands for itself.
+std::vector<FrameFile> frames_from(std::vector<Entry> entries) {
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const auto& a, const auto& b) { return a.time.value_or(0) < b.time.value_or(0); });
+  std::vector<FrameFile> frames;
+  std::map<std::string, fs::path> parts;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const auto& entry = entries[i];
+    parts[entry.part] = entry.path;
+    if (entry.time && i + 1 < entries.size() && entries[i + 1].time == entry.time) continue;
+    FrameFile frame;
+    frame.time = entry.time;
+    for (const auto& [name, path] : parts) {
+      if (frame.path.empty())
+        frame.path = path;
+      else if (path != frame.path &&
+               std::find(frame.more.begin(), frame.more.end(), path) == frame.more.end())
+        frame.more.push_back(path);
+    }
+    frames.push_back(std::move(frame));
+    parts.clear();
+  }
+  return frames;
 }
 
 /// Compares names so that numbers in them count as numbers: step9 before step10.
@@ -73,7 +108,8 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 bool is_vtk(const fs::path& path) {
   const auto extension = path.extension();
-  return extension == ".vtp" || extension == ".vtu" || extension == ".vtk" || extension == ".vti";
+  constexpr std::string_view known[] = {".vtp", ".vtu", ".vtk", ".vti"};
+  return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
 std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pattern) {
@@ -87,7 +123,7 @@ std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pa
   }
   std::sort(names.begin(), names.end(), natural_less);
   std::vector<FrameFile> frames;
-  for (const auto& name : names) frames.push_back({directory / name, {}, {}});
+  for (const auto& name : names) frames.push_back({directory / name, {}, {}, {}});
   return frames;
 }
 
@@ -104,8 +140,11 @@ std::vector<FrameFile> frames_of(const fs::path& source) {
     if (frames.empty()) frames = files_in(source / "frames", "*");
     return frames;
   }
-  if (fs::exists(source, error))
-    return source.extension() == ".pvd" ? read_pvd(source) : std::vector<FrameFile>{{source, {}, {}}};
+  if (fs::exists(source, error)) {
+    if (source.extension() == ".pvd") return read_pvd(source);
+    if (source.extension() == ".series") return read_series_index(source);
+    return {{source, {}, {}, {}}};
+  }
   const auto pattern = source.filename().string();
   if (pattern.find_first_of("*?[") != std::string::npos) return files_in(source.parent_path(), pattern);
   throw InputError(source.string() + ": no such file or directory");
@@ -126,9 +165,24 @@ std::vector<FrameFile> read_pvd(const fs::path& path) {
                                  XML_ErrorString(XML_GetErrorCode(parser.get()))));
   if (!index.wrong.empty()) throw InputError(path.string() + ": " + index.wrong);
   if (!index.is_collection) throw InputError(path.string() + ": not a time index: no element Collection");
-  std::stable_sort(index.frames.begin(), index.frames.end(),
-                   [](const auto& a, const auto& b) { return a.time.value_or(0) < b.time.value_or(0); });
-  return std::move(index.frames);
+  return frames_from(std::move(index.entries));
+}
+
+std::vector<FrameFile> read_series_index(const fs::path& path) {
+  const auto json = nlohmann::json::parse(read_file(path), nullptr, false);
+  const auto fail = [&](const std::string& what) {
+    throw InputError(path.string() + ": not a time index: " + what);
+  };
+  if (json.is_discarded()) fail("no JSON");
+  if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) fail("no list \"files\"");
+  std::vector<Entry> entries;
+  for (const auto& file : json["files"]) {
+    if (!file.is_object() || !file.contains("name") || !file["name"].is_string())
+      fail("an entry without a name");
+    if (!file.contains("time") || !file["time"].is_number()) fail("an entry without a time");
+    entries.push_back({path.parent_path() / file["name"].get<std::string>(), file["time"].get<double>(), {}});
+  }
+  return frames_from(std::move(entries));
 }
 
 std::vector<FrameFile> find_frames(const fs::path& source) {
@@ -138,6 +192,13 @@ std::vector<FrameFile> find_frames(const fs::path& source) {
   for (auto& frame : frames)
     frame.contacts = find_beside(frame, (fs::path("contacts") / frame.path.filename()).string());
   return frames;
+}
+
+std::vector<FileBytes> read_files(const FrameFile& frame) {
+  auto files = read_parts(frame.path);
+  for (const auto& more : frame.more)
+    for (auto& part : read_parts(more)) files.push_back(std::move(part));
+  return files;
 }
 
 fs::path find_beside(const FrameFile& frame, std::string_view name) {

@@ -4,20 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cctype>
 #include <limits>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "read/number.hpp"
 
 namespace chute::read {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// The cell that starts `rest`, which then starts behind the comma. False if a quote does not end.
 bool take_cell(std::string_view& rest, std::string& cell, bool& last) {
@@ -47,6 +42,40 @@ bool take_cell(std::string_view& rest, std::string& cell, bool& last) {
   return false;
 }
 
+/// The cells of a line. False if a quote does not end.
+bool take_cells(std::string_view line, std::vector<std::string>& cells) {
+  cells.clear();
+  for (bool last = false; !last;)
+    if (!take_cell(line, cells.emplace_back(), last)) return false;
+  return true;
+}
+
+/// What programs write where a number is not known.
+bool is_gap(std::string_view cell) {
+  std::string lower(cell);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::string_view gaps[] = {"", "na", "n/a", "#n/a", "null", "none", "-", "--", "?"};
+  return std::find(std::begin(gaps), std::end(gaps), lower) != std::end(gaps);
+}
+
+bool all_numbers(const std::vector<std::string>& cells) {
+  return std::all_of(cells.begin(), cells.end(),
+                     [](const std::string& cell) { return number_in(cell) || is_gap(cell); });
+}
+
+/// numpy and gnuplot write the names of columns as a comment: the last one before numbers that has a name for each.
+bool take_commented_header(Table& table, std::size_t columns) {
+  for (auto comment = table.comments.rbegin(); comment != table.comments.rend(); ++comment) {
+    std::vector<std::string> names;
+    if (!take_cells(*comment, names) || names.size() != columns || all_numbers(names)) continue;
+    if (std::find(names.begin(), names.end(), "") != names.end()) continue;
+    table.comments.erase(std::next(comment).base());
+    table.header = std::move(names);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Table parse_table(std::string_view text, const std::filesystem::path& name) {
@@ -56,6 +85,13 @@ Table parse_table(std::string_view text, const std::filesystem::path& name) {
   const auto fail = [&](const std::string& what) {
     throw InputError(fmt::format("{}:{}: {}", name.string(), number, what));
   };
+  const auto refuse_twins = [&] {
+    for (auto cell = table.header.begin(); cell != table.header.end(); ++cell)
+      if (std::find(table.header.begin(), cell, *cell) != cell)
+        fail(fmt::format("two columns are called \"{}\"", *cell));
+  };
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   while (!text.empty()) {
     ++number;
     const auto end = text.find('\n');
@@ -67,14 +103,15 @@ Table parse_table(std::string_view text, const std::filesystem::path& name) {
       continue;
     }
     std::vector<std::string> cells;
-    for (bool last = false; !last;)
-      if (!take_cell(line, cells.emplace_back(), last)) fail("a quoted cell does not end as it should");
-    if (table.header.empty()) {
-      for (auto cell = cells.begin(); cell != cells.end(); ++cell)
-        if (std::find(cells.begin(), cell, *cell) != cell)
-          fail(fmt::format("two columns are called \"{}\"", *cell));
+    if (!take_cells(line, cells)) fail("a quoted cell does not end as it should");
+    if (table.header.empty() && all_numbers(cells) && take_commented_header(table, cells.size())) {
+      refuse_twins();
+    } else if (table.header.empty()) {
       table.header = std::move(cells);
-    } else if (cells.size() != table.header.size()) {
+      refuse_twins();
+      continue;
+    }
+    if (cells.size() != table.header.size()) {
       fail(fmt::format("{} cells, but the header names {}", cells.size(), table.header.size()));
     } else {
       table.rows.push_back(std::move(cells));
@@ -106,14 +143,18 @@ std::vector<double> Table::column(std::string_view name) const {
   values.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string& cell = rows[i][at];
-    double value = std::numeric_limits<double>::quiet_NaN();
-    const char* const end = cell.data() + cell.size();
-    const auto [stop, error] = std::from_chars(cell.data() + cell.starts_with('+'), end, value);
-    if (!cell.empty() && (error != std::errc() || stop != end))
+    const auto value = number_in(cell);
+    if (!value && !is_gap(cell))
       throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number", file.string(), lines[i], name, cell));
-    values.push_back(value);
+    values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   return values;
+}
+
+bool Table::is_number(std::string_view name) const {
+  const auto at = index(name);
+  return std::all_of(rows.begin(), rows.end(),
+                     [&](const auto& row) { return number_in(row[at]) || is_gap(row[at]); });
 }
 
 std::vector<std::string> Table::text(std::string_view name) const {

@@ -15,17 +15,20 @@ struct Table {
   std::vector<std::size_t> lines;              ///< of each row in the file, from 1
 
   bool has(std::string_view name) const;
-  /// A column as numbers; an empty cell is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column
+  /// A column as numbers; an empty cell, N/A, NA, NaN, null or a dash is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column
   /// or a cell that is no number.
   std::vector<double> column(std::string_view name) const;
+  /// Whether `column` can read it.
+  bool is_number(std::string_view name) const;
   /// A column as it stands.
   std::vector<std::string> text(std::string_view name) const;
   /// Index of a column; InputError if there is none of that name.
   std::size_t index(std::string_view name) const;
 };
 
-/// Reads comma-separated values. Lines that start with `#` are comments, the first other line is the header;
-/// empty lines are skipped, cells may stand in double quotes, with a quote in them doubled. InputError
+/// Reads comma-separated values. Lines that start with `#` are comments, the first other line is the header,
+/// or, where that is of numbers, the last comment before it that names as many columns (numpy.savetxt); a byte order mark
+/// and empty lines are skipped, cells may stand in double quotes, with a quote in them doubled. InputError
 /// `FILE:LINE: …` for a row with more or fewer cells than the header, a quote that does not end, a column
 /// named twice; `FILE: …` if there is no header.
 Table read_table(const std::filesystem::path& path);

@@ -28,6 +28,7 @@
 #include <stdexcept>
 #include <streambuf>
 
+#include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
 #include "read/image_data.hpp"
@@ -157,18 +158,6 @@ vtkSmartPointer<vtkPointSet> read_xml(std::string& bytes, const Wanted& wanted,
   return reader->GetErrorCode() == 0 ? vtkPointSet::SafeDownCast(reader->GetOutputAsDataSet()) : nullptr;
 }
 
-/// The value of attribute `type` of the element VTKFile, empty if the text does not start like a VTK XML
-/// file.
-std::string_view xml_type(std::string_view text) {
-  const auto start = text.substr(0, 4096).find("<VTKFile");
-  if (start == std::string_view::npos) return {};
-  const auto element = text.substr(start, text.find('>', start) - start);
-  const auto type = element.find("type=\"");
-  if (type == std::string_view::npos) return {};
-  const auto value = element.substr(type + 6);
-  return value.substr(0, value.find('"'));
-}
-
 std::vector<PointArray> arrays_of(vtkFieldData* data) {
   std::vector<PointArray> arrays;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
@@ -194,6 +183,7 @@ VtkPoints copied(vtkPointSet* set) {
     set->GetPoint(static_cast<vtkIdType>(i), p);
     result.x[i] = p[0], result.y[i] = p[1], result.z[i] = p[2];
   }
+  result.cells_in_all = static_cast<std::size_t>(set->GetNumberOfCells());
   result.point_arrays = arrays_of(set->GetPointData());
   result.cell_arrays = arrays_of(set->GetCellData());
   result.field_arrays = arrays_of(set->GetFieldData());
@@ -246,13 +236,14 @@ VtkPoints parse_legacy(std::string_view bytes, const Wanted& wanted) {
 VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path, const Wanted& wanted) {
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   if (bytes.empty()) fail("the file is empty");
-  const std::string type(xml_type(bytes));
-  if (!type.empty() && type != "PolyData" && type != "UnstructuredGrid")
+  const auto [is_xml, type] = xml_head(bytes);
+  if (is_xml && type != "PolyData" && type != "UnstructuredGrid")
     fail(fmt::format("a VTK file of type {}, expected PolyData or UnstructuredGrid", type));
-  if (type.empty() && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
+  if (!is_xml && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
+  if (is_xml) bytes.resize(without_tail(bytes).size());
   VtkPoints result;
   try {
-    result = type.empty() ? parse_legacy(bytes, wanted) : parse_xml(bytes, type == "PolyData", wanted);
+    result = is_xml ? parse_xml(bytes, type == "PolyData", wanted) : parse_legacy(bytes, wanted);
   } catch (const std::bad_alloc&) {
     fail("damaged: it asks for more memory than there is");
   } catch (const std::runtime_error& error) {
@@ -264,12 +255,68 @@ VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path, const 
   return result;
 }
 
+std::vector<FileBytes> read_parts(const std::filesystem::path& path) {
+  std::vector<FileBytes> files;
+  std::string bytes = read_file(path);
+  const auto sources = part_sources(bytes);
+  if (!sources) {
+    files.push_back({path, std::move(bytes)});
+    return files;
+  }
+  if (sources->empty()) throw InputError(path.string() + ": an index of parts that names none");
+  for (const auto& source : *sources) {
+    const auto part = path.parent_path() / source;
+    files.push_back({part, read_file(part)});
+    if (part_sources(files.back().bytes))
+      throw InputError(fmt::format("{}: its part {} is an index itself", path.string(), source));
+  }
+  return files;
+}
+
+VtkPoints parse_vtk(std::vector<FileBytes> parts, const Wanted& wanted) {
+  VtkPoints whole;
+  for (auto& file : parts) {
+    auto part = parse_vtk(std::move(file.bytes), file.path, wanted);
+    if (part.x.empty() && &file != &parts.front()) continue;
+    if (whole.x.empty()) {
+      whole = std::move(part);
+      continue;
+    }
+    const std::size_t before = whole.x.size(), cells_before = whole.cells_in_all;
+    for (auto [into, from] : {std::pair{&whole.x, &part.x}, {&whole.y, &part.y}, {&whole.z, &part.z}})
+      into->insert(into->end(), from->begin(), from->end());
+    const auto join = [](std::vector<PointArray>& into, const std::vector<PointArray>& from) {
+      std::erase_if(into, [&](PointArray& array) {
+        const auto other = std::find_if(from.begin(), from.end(), [&](const PointArray& b) {
+          return b.name == array.name && b.components == array.components;
+        });
+        if (other == from.end()) return true;
+        array.values.insert(array.values.end(), other->values.begin(), other->values.end());
+        return false;
+      });
+    };
+    join(whole.point_arrays, part.point_arrays);
+    join(whole.cell_arrays, part.cell_arrays);
+    std::erase_if(whole.point_names, [&](const std::string& name) {
+      return std::find(part.point_names.begin(), part.point_names.end(), name) == part.point_names.end();
+    });
+    for (auto& cell : part.cells) {
+      cell.number += cells_before;
+      for (auto& corner : cell.corners) corner += before;
+      whole.cells.push_back(std::move(cell));
+    }
+    whole.cells_in_all += part.cells_in_all;
+  }
+  return whole;
+}
+
 ImageData parse_image_data(std::string bytes, const std::filesystem::path& path) {
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   if (bytes.empty()) fail("the file is empty");
-  if (const std::string type(xml_type(bytes)); type != "ImageData")
-    fail(type.empty() ? std::string("not a VTK file of image data (.vti)")
-                      : fmt::format("a VTK file of type {}, expected ImageData", type));
+  if (const auto [is_xml, type] = xml_head(bytes); type != "ImageData")
+    fail(is_xml ? fmt::format("a VTK file of type {}, expected ImageData", type)
+                : "not a VTK file of image data (.vti)");
+  bytes.resize(without_tail(bytes).size());
   if (const auto fault = xml_fault(bytes); !fault.empty()) fail("damaged or cut short: " + fault);
   ImageData result;
   try {

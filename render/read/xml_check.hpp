@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace chute::read {
 
@@ -8,5 +10,19 @@ namespace chute::read {
 /// on trust (the types of arrays, how many values there are) and crashes or fills the memory where they are
 /// damaged; it also reads a file whose end is missing.
 std::string xml_fault(std::string_view text);
+
+/// Up to the end of the element VTKFile: programs pad files with blanks, zero bytes or lines of their own. Whole if there
+/// is no such end.
+std::string_view without_tail(std::string_view text);
+
+struct XmlHead {
+  bool is_vtk = false;  ///< the outermost element is VTKFile
+  std::string type;     ///< its attribute, "PolyData"
+};
+/// What an XML file says first, however it is written: comments, blanks, single quotes and other attributes.
+XmlHead xml_head(std::string_view text);
+
+/// The files that an index of parts names (.pvtp, .pvtu, .vtm); nothing if the text is no such index.
+std::optional<std::vector<std::string>> part_sources(std::string_view text);
 
 }  // namespace chute::read

@@ -50,7 +50,7 @@ FrameRenderer::~FrameRenderer() = default;
 const image::Image& FrameRenderer::draw(const FrameData& data) {
   auto& in = *inside_;
   in.painter->paint(in.following ? in.following->moved(data) : data, in.picture);
-  if (image::is_blank(in.picture))
+  if (data.frame.size() > 0 && image::is_blank(in.picture))
     throw WorkError(
         fmt::format("{}: the picture came out blank: no grain is in view", data.frame.file.string()));
   if (in.studio.style.background == Background::transparent) divide_by_alpha(in.picture);

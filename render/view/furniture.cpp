@@ -68,6 +68,10 @@ plot::Ticks bar_ticks(const Survey& survey, double length, double size, bool hor
   return plot::ticks_for(span, std::min(length, 11 * size), size, horizontal);
 }
 
+std::string with_factor(const std::string& title, const plot::Ticks& ticks) {
+  return ticks.factor.empty() ? title : title + " " + ticks.factor;
+}
+
 /// Degrees without digits that say nothing: 18, 14.4.
 std::string degrees_text(double radians) {
   const double degrees = std::abs(radians) * 180 / std::numbers::pi;
@@ -120,9 +124,10 @@ Furniture::Furniture(const Studio& studio, double aspect)
     const auto measure = [&](const std::string& label) {
       labels = std::max(labels, plot::set_text(label, small * size).width / size);
     };
-    title = plot::set_text(title_, size).width / size;
-    if (survey_.categories.empty())
-      for (const auto& tick : bar_ticks(survey_, 12 * size, small * size, false).major) measure(tick.label);
+    plot::Ticks ticks;
+    if (survey_.categories.empty()) ticks = bar_ticks(survey_, 12 * size, small * size, false);
+    for (const auto& tick : ticks.major) measure(tick.label);
+    title = plot::set_text(with_factor(title_, ticks), size).width / size;
     for (const auto kind : survey_.categories) measure(kind_label(kind));
   }
   places_ = arrange(style_, survey_, aspect, title, labels);
@@ -193,8 +198,7 @@ void Furniture::draw_bar(DisplayList& list) const {
       plot::draw_text(list, text, {x - text.width / 2, bar.bottom + tick_length + 0.95 * size}, ink());
     }
   }
-  const std::string title = ticks.factor.empty() ? title_ : title_ + " " + ticks.factor;
-  plot::draw_text(list, plot::set_text(title, em), places_.title, ink());
+  plot::draw_text(list, plot::set_text(with_factor(title_, ticks), em), places_.title, ink());
 }
 
 ScaleBar Furniture::flat_scale(double pixels_per_unit) const {
@@ -202,6 +206,24 @@ ScaleBar Furniture::flat_scale(double pixels_per_unit) const {
   scale.length = plain_length(longest_scale(places_.scene, places_.em) / pixels_per_unit);
   scale.from = places_.scale,
   scale.to = {places_.scale.x() + scale.length * pixels_per_unit, places_.scale.y()};
+  return scale;
+}
+
+/// A bar along an edge of the grains may run out of a narrow picture: it is moved back into it, with its label.
+ScaleBar Furniture::kept_inside(ScaleBar scale) const {
+  const double em = places_.em, margin = 0.6 * em;
+  const auto label = plot::set_text(length_text(scale.length, survey_.units), small * em);
+  Rect bounds{std::min(scale.from.x(), scale.to.x()), std::min(scale.from.y(), scale.to.y()),
+              std::max(scale.from.x(), scale.to.x()), std::max(scale.from.y(), scale.to.y())};
+  const double beside = scale.label_below ? std::max(0.0, label.width - bounds.width()) / 2 : 0;
+  bounds.left -= beside + margin, bounds.right += beside + margin;
+  bounds.top -= margin, bounds.bottom += margin + (scale.label_below ? 1.6 * em : 0);
+  Point shift{0, 0};
+  if (bounds.right > style_.width) shift.x() = style_.width - bounds.right;
+  if (bounds.left + shift.x() < 0) shift.x() = -bounds.left;
+  if (bounds.bottom > style_.height) shift.y() = style_.height - bounds.bottom;
+  if (bounds.top + shift.y() < 0) shift.y() = -bounds.top;
+  scale.from += shift, scale.to += shift;
   return scale;
 }
 
@@ -278,7 +300,7 @@ void Furniture::draw_gravity(DisplayList& list, const Directions& directions) co
 void Furniture::stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels) {
   auto list = blank(style_.width, style_.height);
   if (places_.has_bar) survey_.categories.empty() ? draw_bar(list) : draw_kinds(list);
-  if (places_.has_scale) draw_scale(list, scale);
+  if (places_.has_scale) draw_scale(list, kept_inside(scale));
   if (places_.has_key) draw_key(list, arrow_pixels);
   if (places_.has_gravity) draw_gravity(list, directions);
   standing_ = plot::rasterise_by_cairo(list, pixels);

@@ -54,6 +54,7 @@ class Furniture {
 
   void draw_bar(plot::DisplayList& list) const;
   void draw_kinds(plot::DisplayList& list) const;
+  ScaleBar kept_inside(ScaleBar scale) const;
   void draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
   void draw_key(plot::DisplayList& list, double arrow_pixels) const;
   void draw_gravity(plot::DisplayList& list, const Directions& directions) const;

@@ -33,9 +33,11 @@ Words input_words(int width, int height, double rate) {
 // H.264's colours are sampled at half the size: sides must be even. BT.709, said in the file, so that players
 // show the colours that were drawn. As many threads everywhere, since they change the bytes; no versions or
 // times in the file.
-Words h264_words() {
+Words h264_words(Rgb ground) {
+  const auto byte = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+  const auto colour = fmt::format("0x{:02x}{:02x}{:02x}", byte(ground.r), byte(ground.g), byte(ground.b));
   // clang-format off
-  return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,scale=out_color_matrix=bt709:out_range=tv"
+  return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:" + colour + ",scale=out_color_matrix=bt709:out_range=tv"
                  ":flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p",
           "-c:v", "libx264",
           "-preset", "medium",
@@ -119,7 +121,7 @@ Movie::Movie(const fs::path& path, int width, int height, double frames_per_seco
   const fs::path temporary = detail::beside(path);
   Words words = input_words(width, height, frames_per_second);
   const auto append = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
-  if (kind == Kind::h264) append(h264_words());
+  if (kind == Kind::h264) append(h264_words(ground));
   if (kind == Kind::gif && palette.empty())
     append({"-vf", "palettegen=stats_mode=full", "-frames:v", "1", "-update", "1", "-f", "image2", "-c:v",
             "png"});

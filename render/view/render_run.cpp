@@ -123,7 +123,7 @@ class FrameDrawer {
     const auto& file = frames_[number];
     const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
     for (std::size_t i = oldest; i < number; ++i) load(i);
-    std::string bytes = read_file(file.path);
+    auto files = read::read_files(file);
     const std::string network =
         job_.style.chains && !file.contacts.empty() ? read_file(file.contacts) : std::string();
 
@@ -131,7 +131,7 @@ class FrameDrawer {
         job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
     Hash hash = common_;
     hash.add(fmt::format("{}", survey_.times[number]));
-    hash.add(bytes);
+    for (const auto& part : files) hash.add(part.bytes);
     hash.add(network);
     for (std::size_t i = oldest; i < number; ++i) hash.add(earlier_[i - first_earlier_].hash);
     const std::size_t impacts = beside_.until(survey_.times[number]);
@@ -144,7 +144,7 @@ class FrameDrawer {
     }
 
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
-    const auto frame = read::parse_frame(std::move(bytes), file.path, job_.radius, wanted_);
+    const auto frame = read::parse_frame(std::move(files), job_.radius, wanted_);
     const auto links =
         network.empty() ? std::vector<read::ForceLink>() : read::parse_network(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
@@ -185,12 +185,11 @@ class FrameDrawer {
     if (i < first_earlier_ || i > first_earlier_ + earlier_.size()) earlier_.clear();
     if (earlier_.empty()) first_earlier_ = i;
     if (i < first_earlier_ + earlier_.size()) return;
-    const auto bytes = read_file(frames_[i].path);
+    auto files = read::read_files(frames_[i]);
     Hash hash;
-    hash.add(bytes);
+    for (const auto& part : files) hash.add(part.bytes);
     earlier_.push_back(
-        {read::parse_frame(bytes, frames_[i].path, job_.radius, {std::string(fields::id.name)}),
-         hash.text()});
+        {read::parse_frame(std::move(files), job_.radius, {std::string(fields::id.name)}), hash.text()});
     while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64)
       earlier_.pop_front(), ++first_earlier_;
   }
@@ -274,6 +273,7 @@ RenderReport render_run(const RenderJob& job) {
   }
 
   RenderReport report;
+  report.left_out = found.left_out;
   const auto& style = job.style;
   const auto draw = [&](const std::vector<std::size_t>& which, bool wanted, const Take& take) {
     draw_all(
@@ -306,10 +306,18 @@ RenderReport render_run(const RenderJob& job) {
     draw(some, true, [&](std::size_t, bool, const image::Image& picture) { palette->add(picture); });
     palette->finish();
   }
-  Movie movie(job.movie, style.width, style.height, job.frames_per_second, ground,
-              palette ? palette->file() : fs::path());
+  // Delays in a GIF count hundredths of a second, and browsers play one below 2 as 10: of more frames a second some are
+  // left out, so that the whole lasts as long.
+  constexpr double fastest_gif = 50;
+  const auto stride = is_gif ? static_cast<std::size_t>(std::ceil(job.frames_per_second / fastest_gif - 1e-9))
+                             : std::size_t{1};
+  Movie movie(job.movie, style.width, style.height, job.frames_per_second / static_cast<double>(stride),
+              ground, palette ? palette->file() : fs::path());
   draw(numbers, true, [&](std::size_t i, bool drawn, const image::Image& picture) {
-    movie.add(picture);
+    if (i % stride == 0)
+      movie.add(picture);
+    else
+      ++report.skipped;
     count(i, drawn);
   });
   movie.finish();

@@ -35,7 +35,9 @@ struct RenderJob {
 
 struct RenderReport {
   std::size_t drawn = 0;
-  std::size_t kept = 0;  ///< pictures that were there already, drawn from the same
+  std::size_t kept = 0;      ///< pictures that were there already, drawn from the same
+  std::size_t skipped = 0;   ///< frames that a GIF of more than 50 a second leaves out
+  std::size_t left_out = 0;  ///< grains of all frames together that have no place or no size
 };
 
 /// Draws a run: looks at all frames once for what must not change (colour range, camera), then draws those

@@ -68,24 +68,33 @@ double beyond_domain(const Eigen::AlignedBox3d& domain, double x) {
   return std::max(from - x, x - to) / (copy_reach * (to - from));
 }
 
-Surveyor::Surveyor(const FrameStyle& style) : style_(style) { style_.check(); }
+Surveyor::Surveyor(const FrameStyle& style) : style_(style) {
+  style_.check();
+  found_.has_times = true;
+}
 
 void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
   auto& s = found_;
+  s.left_out += frame.left_out;
+  s.has_times = s.has_times && (time || frame.time);
+  s.times.push_back(time ? *time : frame.time.value_or(static_cast<double>(s.times.size())));
+  if (frame.size() == 0) {  // grains that are still to come, or have left
+    if (style_.camera.follow) path_.see(frame, style_.camera.follow->id, s.times.back());
+    return;
+  }
   if (first_) {
     first_ = false;
+    plane_ = frame.z.front();
     s.dimensions = frame.dimensions;
     s.units = frame.units, s.clock = frame.clock, s.domain = frame.domain, s.gravity = frame.gravity;
     s.field = find_field(style_.color, frame);
-    s.has_times = true;
     const auto& g = s.gravity;
     s.up_axis = s.dimensions == 2 || std::abs(g[1]) > std::abs(g[2]) ? 1 : 2;
     const double down = -g[static_cast<std::size_t>(s.up_axis)];
     if (down > 0) s.slope = std::atan2(g[0], down);
   }
-  s.dimensions = std::max(s.dimensions, frame.dimensions);
-  s.has_times = s.has_times && (time || frame.time);
-  s.times.push_back(time ? *time : frame.time.value_or(static_cast<double>(s.times.size())));
+  // a plane that moves from frame to frame is a layer in space
+  s.dimensions = std::max(s.dimensions, frame.z.front() == plane_ ? frame.dimensions : 3);
 
   const Eigen::Rotation2Dd turn(style_.tilt ? -s.slope : 0);
   const double period = style_.copies ? s.domain.sizes().x() : 0;
@@ -141,7 +150,7 @@ void Surveyor::choose_range() {
 }
 
 Survey Surveyor::finish() {
-  if (first_) throw InputError("no frames to draw");
+  if (first_) throw InputError(found_.times.empty() ? "no frames to draw" : "no frame has a grain");
   auto& s = found_;
   if (s.dimensions == 3 && s.up_axis == 1 && std::abs(s.gravity[1]) <= std::abs(s.gravity[2])) s.up_axis = 2;
   choose_range();
@@ -179,7 +188,7 @@ Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& styl
   };
   const auto read = [&](std::size_t i) {
     const bool chains = style.chains && !frames[i].contacts.empty();
-    return Seen{read::read_frame(frames[i].path, radius, wanted),
+    return Seen{read::parse_frame(read::read_files(frames[i]), radius, wanted),
                 chains ? read::read_network(frames[i].contacts) : std::vector<read::ForceLink>()};
   };
   Surveyor surveyor(style);

@@ -37,6 +37,7 @@ struct Survey {
   bool has_fixed = false;     ///< a bed, and grains that move over it
   std::vector<double> times;  ///< of each frame
   bool has_times = false;
+  std::size_t left_out = 0;  ///< grains of all frames that have no place or no size
   int time_decimals = 2;
   /// What the camera follows at each time, smoothed over some frames; empty: it stands.
   std::vector<Eigen::Vector3d> path;
@@ -79,6 +80,7 @@ class Surveyor {
   FrameStyle style_;
   Survey found_;
   bool first_ = true;
+  double plane_ = 0;  ///< z of the first grain that was seen
   Sample values_, speeds_, forces_;
   std::set<long long> kinds_;
   PathFinder path_;

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
@@ -25,6 +28,12 @@ std::string span_text(const std::vector<double>& values) {
   return low > high ? "nothing known" : fmt::format("{:.6g} … {:.6g}", low, high);
 }
 
+/// How much of a column of words there is.
+std::string text_span(const std::vector<std::string>& values) {
+  const std::set<std::string> different(values.begin(), values.end());
+  return values.empty() ? "text" : fmt::format("text, {} different", different.size());
+}
+
 /// The unit of an array that chute's own files have, in the units that the file names.
 std::string unit_of(const std::string& name, const std::string& units) {
   const auto look = [&](const auto& known) -> std::string {
@@ -45,7 +54,7 @@ void show_arrays(const char* where, const std::vector<read::PointArray>& arrays,
 }
 
 void show_vtk(const fs::path& path) {
-  const auto points = read::parse_vtk(read_file(path), path);
+  const auto points = read::parse_vtk(read::read_parts(path));
   fmt::print("{}: {} points, {} lines and polygons\n", path.string(), points.x.size(), points.cells.size());
   fmt::print("  place  x {}   y {}   z {}\n", span_text(points.x), span_text(points.y), span_text(points.z));
   std::string units;
@@ -62,11 +71,8 @@ void show_table(const fs::path& path) {
   for (const auto& comment : table.comments) fmt::print("# {}\n", comment);
   fmt::print("{}: {} rows\n", path.string(), table.rows.size());
   for (const auto& name : table.header) {
-    const auto texts = table.text(name);
-    const bool numbers = std::all_of(texts.begin(), texts.end(), [](const std::string& t) {
-      return t.find_first_not_of("0123456789+-.eE") == t.npos;
-    });
-    fmt::print("  {:<18} {}\n", name, numbers ? span_text(table.column(name)) : "text");
+    fmt::print("  {:<18} {}\n", name,
+               table.is_number(name) ? span_text(table.column(name)) : text_span(table.text(name)));
   }
 }
 
@@ -107,8 +113,11 @@ void info(const fs::path& path) {
   const auto extension = path.extension();
   if (fs::is_directory(path)) return show_run(path);
   if (extension == ".csv") return show_table(path);
-  if (extension == ".vtp" || extension == ".vtu" || extension == ".vtk") return show_vtk(path);
-  throw InputError(path.string() + ": neither a run directory nor a .vtp, .vtu, .vtk or .csv file");
+  constexpr std::array point_files{".vtp", ".vtu", ".vtk", ".pvtp", ".pvtu", ".vtm"};
+  if (std::find(point_files.begin(), point_files.end(), extension) != point_files.end())
+    return show_vtk(path);
+  throw InputError(fmt::format("{}: neither a run directory nor a {} or .csv file", path.string(),
+                               fmt::join(point_files, ", ")));
 }
 
 }  // namespace

@@ -175,6 +175,7 @@ void render(const RenderArguments& a) {
   // Stopped between two frames, so that no part of a movie stays behind.
   std::signal(SIGINT, [](int) { stop_asked = 1; });
   std::signal(SIGTERM, [](int) { stop_asked = 1; });
+  if (std::signal(SIGHUP, [](int) { stop_asked = 1; }) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   Progress reading("read", a.quiet), drawing("render", a.quiet);
   job.progress = [&](const char* what, std::size_t done, std::size_t all) {
     const bool reads = std::string_view(what) == "reading";
@@ -186,6 +187,12 @@ void render(const RenderArguments& a) {
   };
   const auto report = view::render_run(job);
   if (a.quiet) return;
+  if (report.left_out > 0)
+    fmt::print(stderr, "render: left out {} grain{} (of all frames) without a place or a radius > 0\n",
+               report.left_out, report.left_out == 1 ? "" : "s");
+  if (report.skipped > 0)
+    fmt::print(stderr, "render: the movie leaves out {} frames: a GIF shows 50 a second at most\n",
+               report.skipped);
   const auto kept = report.kept ? fmt::format(", {} were there", report.kept) : "";
   const auto where = job.output.empty() ? job.movie : job.output;
   fmt::print(stderr, "render: {} frame{} drawn{}; in {}\n", report.drawn, report.drawn == 1 ? "" : "s", kept,

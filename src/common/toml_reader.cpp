@@ -61,7 +61,33 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   return best;
 }
 
+/// The library goes down one call a part of a dotted key or a bracket, and so would the stack.
+static void refuse_depth(std::string_view text, const std::string& name) {
+  constexpr std::size_t deepest = 64;
+  std::size_t line = 1, dots = 0, open = 0;
+  char quote = 0;
+  bool comment = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') ++line, dots = 0, comment = false;
+    if (comment) continue;
+    if (quote != 0) {
+      if (c == '\\' && quote == '"') ++i;
+      if (c == quote) quote = 0;
+      continue;
+    }
+    if (c == '"' || c == '\'') quote = c;
+    comment = c == '#';
+    dots = c == '.' ? dots + 1 : c == '=' || c == ',' || c == '[' || c == '{' ? 0 : dots;
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (std::max(dots, open) > deepest)
+      throw InputError(fmt::format("{}:{}: more than {} levels deep", name, line, deepest));
+  }
+}
+
 toml::table parse_toml(std::string_view text, const std::string& name) {
+  refuse_depth(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

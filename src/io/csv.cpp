@@ -24,8 +24,8 @@ void Csv::row(std::span<const std::string_view> texts, std::span<const Cell> cel
   assert(texts.size() + cells.size() == columns_);
   const char* comma = "";
   for (const auto text : texts) {
-    assert(text.find_first_of(",\"\n") == text.npos);
-    text_ += fmt::format("{}{}", comma, text);
+    text_ += comma;
+    add_text(text);
     comma = ",";
   }
   for (const auto& cell : cells) {
@@ -34,6 +34,21 @@ void Csv::row(std::span<const std::string_view> texts, std::span<const Cell> cel
     comma = ",";
   }
   text_ += '\n';
+}
+
+/// RFC 4180: what has commas, quotes or line ends stands in quotes, with its own doubled. Tables are read line by line,
+/// so that a line's end within becomes a blank.
+void Csv::add_text(std::string_view text) {
+  if (text.find_first_of(",\"\n\r#") == text.npos && !text.starts_with(' ') && !text.ends_with(' ')) {
+    text_ += text;
+    return;
+  }
+  text_ += '"';
+  for (const char c : text) {
+    if (c == '"') text_ += c;
+    text_ += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  text_ += '"';
 }
 
 }  // namespace chute::io

@@ -15,7 +15,7 @@ class Csv {
   using Cell = std::optional<double>;
   void row(std::span<const Cell> cells);
   void row(std::initializer_list<Cell> cells) { row(std::span(cells.begin(), cells.size())); }
-  /// First cells text, the others numbers; texts must not hold commas or quotes.
+  /// First cells text, in quotes where they need them, the others numbers.
   void row(std::span<const std::string_view> texts, std::span<const Cell> cells);
   void row(std::initializer_list<std::string_view> texts, std::span<const Cell> cells) {
     row(std::span(texts.begin(), texts.size()), cells);
@@ -26,6 +26,8 @@ class Csv {
   const std::string& text() const { return text_; }
 
  private:
+  void add_text(std::string_view text);
+
   std::string text_;
   std::size_t columns_;
 };

@@ -225,10 +225,25 @@ static void check_step_count(const Scene& scene, const engines::Setting& setting
   // 2^53 is where times of steps would no longer be told apart; no machine gets there.
   constexpr double most = 1e15;
   const double step = scene.engine->step(setting);
+  if (step > 2 * scene.duration)
+    reader.fail("run.duration",
+                fmt::format("{:.6g} is less than half a step of {:.3g}", scene.duration, step));
   if (!(scene.duration / step <= most))
     reader.fail("run.duration",
                 fmt::format("{:.6g} takes {:.2g} steps of {:.3g}, more than {:.0e} that can be counted",
                             scene.duration, scene.duration / step, step, most));
+}
+
+/// Refuses outputs of which there would be more than a disk or a reader can take, and those that are due less than once in a step.
+static void check_output_count(const Scene& scene, const TomlReader& reader) {
+  constexpr double most = 1e7;
+  for (const auto& output : scene.output) {
+    const double every = output->rhythm();
+    if (output->wanted() && scene.duration / every > most)
+      reader.fail(fmt::format("output.{}.every", output.word()),
+                  fmt::format("{:.3g} makes {:.2g} of them in run.duration = {:.6g}, more than {:.0e}", every,
+                              scene.duration / every, scene.duration, most));
+  }
 }
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings) {
@@ -244,6 +259,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   const auto setting = setting_of(scene);
   if (!scene.engine->brings_grains()) laws::check_contact_time(scene.contact, setting.reference(), reader);
   if (const auto wrong = refusal_of(scene)) reader.fail(wrong->key, wrong->message);
+  check_output_count(scene, reader);
   check_step_count(scene, setting, reader);
   return scene;
 }

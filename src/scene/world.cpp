@@ -347,6 +347,7 @@ World<D> make_world(const Scene& scene) {
   for (int k = 0; k < D; ++k)
     if (const double length = periods.length[static_cast<std::size_t>(k)]; length > 0)
       world.domain.length[k] = length;
+  wrap_into(world.domain, grains);  // a start beyond the end of a period is the place in it
   world.gravity = gravity_on_incline<D>(scene.incline.gravity, scene.incline.theta());
   if (scene.incline.tilting) world.tilt = scene.incline.tilting->tilt(scene.incline.gravity);
   const double d = given_diameter(scene).value_or(mean);

@@ -8,6 +8,8 @@
 namespace chute::sweep {
 namespace {
 
+constexpr double most_places = 1e6;  // runs that a sweep may ask for
+
 template <class Archive>
 void describe_axis(Archive& a, Axis& axis) {
   a.required("key", axis.key);
@@ -15,7 +17,7 @@ void describe_axis(Archive& a, Axis& axis) {
   if (Archive::reading || axis.values.empty()) {
     a.value("from", axis.from);
     a.value("to", axis.to);
-    a.value("count", axis.count, at_least(0));
+    a.value("count", axis.count, between(0, most_places));
     a.value("quick_count", axis.quick_count, at_least(2));
   }
   if (Archive::reading || !axis.unit.empty()) a.value("unit", axis.unit);
@@ -40,6 +42,13 @@ void describe_sweep(Archive& a, SweepSpec& spec) {
   a.sections("axis", spec.axes);
   a.section("boundary", spec.boundary);
   a.check(!spec.axes.empty() || spec.boundary, "axis", "a sweep needs an axis or a boundary");
+  double places = 1;
+  for (const auto& axis : spec.axes)
+    places *=
+        static_cast<double>(axis.values.empty() ? static_cast<std::size_t>(axis.count) : axis.values.size());
+  a.check(
+      places * static_cast<double>(spec.seeds) <= most_places, "axis",
+      fmt::format("{:.3g} places of {} seeds are more runs than {:.0e}", places, spec.seeds, most_places));
 }
 
 }  // namespace

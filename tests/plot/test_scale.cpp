@@ -1,5 +1,8 @@
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
+#include <random>
 
 #include "plot/scale.hpp"
 
@@ -87,4 +90,70 @@ TEST_CASE("ranges leave room for markers, start at zero when near it, and stand 
   REQUIRE(empty.low < empty.high);
   const auto log = span_of({"", Scale::log, {}, {}, {}}, {});
   REQUIRE((log.low > 0 && log.low < log.high));
+}
+
+TEST_CASE("any two doubles make an axis: its ticks lie on it, rise, and are as few as a reader wants") {
+  std::mt19937_64 bits(1);
+  const auto any = [&] {
+    for (;;)
+      if (const auto x = std::bit_cast<double>(bits()); std::isfinite(x)) return x;
+  };
+  const auto next = [](double x, int ulps) {
+    for (int i = 0; i < ulps; ++i) x = std::nextafter(x, std::numeric_limits<double>::infinity());
+    return x;
+  };
+  int axes = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const auto kind = bits() % 4;
+    double a = any(), b = kind == 0   ? next(a, static_cast<int>(bits() % 50 + 1))
+                          : kind == 1 ? a * 1.0001
+                                      : any();
+    const bool log = bits() % 2 == 0;
+    if (log) a = std::max(std::abs(a), 5e-324), b = std::abs(b);
+    if (a > b) std::swap(a, b);
+    if (!(a < b) || !std::isfinite(b)) continue;
+    ++axes;
+    const Span span{a, b, log ? Scale::log : Scale::linear};
+    const auto ticks = ticks_for(span, 190, 9, i % 3 != 0);
+    const double slack = std::isfinite(b - a) ? 1e-6 * (b - a) : 0;
+    if (ticks.major.size() > 60 || ticks.minor.size() > 700) FAIL(a << " to " << b << ": too many ticks");
+    for (std::size_t k = 0; k < ticks.major.size(); ++k) {
+      const double at = ticks.major[k].value;
+      const bool inside =
+          log ? at >= a * (1 - 1e-6) && at <= b * (1 + 1e-6) : at >= a - slack && at <= b + slack;
+      const bool rises = k == 0 || at > ticks.major[k - 1].value;
+      if (!inside || !rises || ticks.major[k].label.empty()) FAIL(a << " to " << b << ": a tick at " << at);
+    }
+  }
+  CHECK(axes > 90'000);
+}
+
+TEST_CASE("the data of an axis may be any doubles: its range holds them and can be mapped") {
+  std::mt19937_64 bits(2);
+  for (int i = 0; i < 100'000; ++i) {
+    double value[2];
+    for (double& v : value) {
+      do v = std::bit_cast<double>(bits());
+      while (!std::isfinite(v));
+    }
+    if (i % 5 == 0) value[1] = value[0];
+    Axis axis;
+    axis.scale = i % 2 ? Scale::log : Scale::linear;
+    Extent extent;
+    for (const double v : value) extent.include(v, axis.scale, true);
+    const auto span = span_of(axis, extent);
+    if (!(span.low < span.high) || !std::isfinite(span.low) || !std::isfinite(span.high))
+      FAIL(value[0] << ", " << value[1] << ": from " << span.low << " to " << span.high);
+    for (const double v : value) {
+      if (axis.scale == Scale::log && v <= 0) continue;
+      const double part = span.fraction(v);
+      if (!(part > -1e-6 && part < 1 + 1e-6)) FAIL(v << " lies at " << part);
+    }
+  }
+}
+
+TEST_CASE("what differs in late digits only stands for its distance from a round number") {
+  const auto ticks = ticks_for({1.7e9, 1.7e9 + 20}, 190, 9, true);
+  REQUIRE(ticks.factor == "$+1700000000$");
+  REQUIRE(ticks.major.front().label == "$0$");
 }

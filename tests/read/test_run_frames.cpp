@@ -87,3 +87,31 @@ TEST_CASE("Files of other engines, in natural order") {
   CHECK_THAT(complaint(folder / "none*.vtk"), Contains("no frames"));
   CHECK_THAT(complaint(folder / "none"), Contains("no such file"));
 }
+
+TEST_CASE("Parts of one time are one frame; what is named again replaces the earlier") {
+  Folder folder;
+  write_atomically(folder / "a.pvd", R"(<?xml version="1.0"?><VTKFile type="Collection"><Collection>
+  <DataSet timestep=" 0.0" part="0" file="left0.vtp"/><DataSet timestep="0.0" part="1" file="right0.vtp"/>
+  <DataSet timestep="+1.0E-01" file="old.vtp"/><DataSet timestep="0.1" file="new.vtp"/>
+  <DataSet timestep="0.1" file="new.vtp"/></Collection></VTKFile>)");
+  const auto frames = read::find_frames(folder / "a.pvd");
+  REQUIRE(names(frames) == std::vector<std::string>{"left0.vtp", "new.vtp"});
+  CHECK(frames[0].more == std::vector{folder / "right0.vtp"});
+  CHECK(frames[1].more.empty());
+  CHECK(frames[1].time == 0.1);
+}
+
+TEST_CASE("An index of a series in JSON") {
+  Folder folder;
+  const auto index = folder / "grains.vtk.series";
+  write_atomically(
+      index,
+      R"({"file-series-version":"1.0","files":[{"name":"b.vtk","time":2},{"name":"a.vtk","time":1e-1}]})");
+  const auto frames = read::find_frames(index);
+  REQUIRE(names(frames) == std::vector<std::string>{"a.vtk", "b.vtk"});
+  CHECK(frames[0].time == 0.1);
+  for (const char* wrong : {"", "{}", "[1]", R"({"files":[{"name":"a"}]})", R"({"files":[{"time":0}]})"}) {
+    write_atomically(index, wrong);
+    CHECK_THAT(complaint(index), Contains("grains.vtk.series: not a time index"));
+  }
+}

@@ -48,3 +48,18 @@ TEST_CASE("What is wrong with a table is said with the line") {
   CHECK_THAT(complaint([&] { table.column("z"); }), Contains("no column \"z\", there are: x, y"));
   CHECK_THAT(complaint([] { read::read_table("/nowhere/t.csv"); }), Contains("cannot read"));
 }
+
+TEST_CASE("Tables of other programs: a mark of byte order, gaps by name, signs, a header behind a hash") {
+  const auto marked = read::parse_table("\xEF\xBB\xBFx,y\n+1.0e+00, 2.\nN/A,-nan(ind)\n", "t.csv");
+  CHECK(marked.header == std::vector<std::string>{"x", "y"});
+  CHECK(marked.column("x")[0] == 1);
+  CHECK(std::isnan(marked.column("x")[1]));
+  CHECK(marked.column("y")[0] == 2);
+  CHECK(std::isnan(marked.column("y")[1]));
+  const auto numpy = read::parse_table("# a run, of last week\n# time,force\n0,1.5\n1,-\n", "t.csv");
+  CHECK(numpy.header == std::vector<std::string>{"time", "force"});
+  CHECK(numpy.rows.size() == 2);
+  CHECK(numpy.comments == std::vector<std::string>{"a run, of last week"});
+  CHECK(numpy.is_number("force"));
+  CHECK_FALSE(read::parse_table("day\n2024-03-07\n", "t.csv").is_number("day"));
+}

@@ -15,6 +15,7 @@ read::GrainFrame one_disc() {
   frame.file = "made by hand";
   frame.dimensions = 2;
   frame.units = "reduced";
+  frame.own = true;
   frame.time = 1.5;
   for (const char* name : {"id", "type", "angle"}) frame.arrays.push_back({name, 1, {}});
   frame.arrays.push_back({"velocity", 3, {}});

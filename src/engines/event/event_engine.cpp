@@ -93,8 +93,9 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
       const double distance = norm(setup_.domain.way(flights_[i].place, flights_[j].place));
       const double reach = flights_[i].radius + flights_[j].radius;
       if (distance < reach * (1 - touching))
-        throw WorkError(fmt::format("grains {} and {} overlap by {:.3g} at the start; hard grains cannot", i,
-                                    j, reach - distance));
+        throw InputError(
+            fmt::format("grains.start: grains {} and {} overlap by {:.3g} at the start; hard grains cannot",
+                        i, j, reach - distance));
     });
 }
 
