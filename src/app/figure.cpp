@@ -153,20 +153,17 @@ void make_figure(const fs::path& file, const fs::path& directory, const figures:
   const Recipe recipe = read_recipe(file);
   const auto table = make_table(recipe, file, directory, context, progress);
   const auto beside = [&](const char* extension) { return directory / (file.stem().string() + extension); };
-  if (recipe.data.table) {
-    std::error_code error;
-    if (fs::equivalent(file.parent_path() / *recipe.data.table, beside(".csv"), error))
-      throw InputError(
-          fmt::format("{}: data.table: {} is where the figure's own table goes; give another folder with -o",
-                      file.string(), beside(".csv").string()));
-  }
+  // A table of the user's own may stand where the figure's would go: it stays as it is.
+  std::error_code error;
+  const bool is_source =
+      recipe.data.table && fs::equivalent(file.parent_path() / *recipe.data.table, beside(".csv"), error);
   // The picture is drawn from the table's text, as any reader of the file would see the numbers; and before anything is
   // written, since what stands there may be better than nothing.
   const auto text = csv_text(recipe, table);
   const auto figure = plot::figure_from(recipe.plot, read::parse_table(text, beside(".csv")));
   const auto list = plot::lay_out(figure).list;
   fs::create_directories(directory);
-  write_atomically(beside(".csv"), text);
+  if (!is_source) write_atomically(beside(".csv"), text);
   const plot::Metadata metadata{
       {"Title", recipe.title},
       {"Creator", fmt::format("chute {} ({})", run::version, run::commit)},

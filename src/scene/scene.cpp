@@ -259,8 +259,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   const auto setting = setting_of(scene);
   if (!scene.engine->brings_grains()) laws::check_contact_time(scene.contact, setting.reference(), reader);
   if (const auto wrong = refusal_of(scene)) reader.fail(wrong->key, wrong->message);
-  check_output_count(scene, reader);
   check_step_count(scene, setting, reader);
+  check_output_count(scene, reader);
   return scene;
 }
 

@@ -87,7 +87,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_more_output_than_a_disk_takes(self):
-        for every in ("1e-300", "1e-9"):
+        for every in ("1e-8", "1e-9"):
             said = self.refused("run", *self.scene(output__series__every=every), "-o", "out")
             self.assertIn("output.series.every", said)
             self.assertEqual(said, self.refused("check", *self.scene(output__series__every=every)))
@@ -116,7 +116,8 @@ class Faults(unittest.TestCase):
         text = "panel,series,x,y\n,a,1,2\n,a,2,3\n"
         (self.folder / "t.csv").write_text(text)
         (self.folder / "t.toml").write_text('title = "t"\n[data]\ntable = "t.csv"\n[plot]\nx = { label = "x" }\ny = { label = "y" }\n')
-        self.assertIn("another folder", self.refused("figure", "t.toml", "-o", ".", "--quiet"))
+        self.assertEqual(self.run_chute("figure", "t.toml", "-o", ".", "--quiet").returncode, 0)
+        self.assertTrue((self.folder / "t.pdf").exists())
         self.assertEqual((self.folder / "t.csv").read_text(), text)
 
 
