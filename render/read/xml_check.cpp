@@ -86,8 +86,8 @@ class XmlCheck {
  private:
   std::string_view text_, head_, data_;
   bool whole_ = true, appended_is_raw_ = true, packed_ = false, big_endian_ = false;
-  std::size_t word_ = 4;  ///< bytes of a number in such a header
-  int depth_ = 0;
+  std::size_t word_ = 4;             ///< bytes of a number in such a header
+  int depth_ = 0, array_depth_ = 0;  ///< 0: in no array
   std::string fault_;
   std::map<std::string, std::uint64_t, std::less<>> counts_;  ///< of the piece that is being read
   std::string parent_;                                        ///< of the arrays that are being read
@@ -100,9 +100,10 @@ class XmlCheck {
       fault_ = fmt::format("elements more than {} levels deep", deepest);
       return;
     }
-    const bool is_array = element == "DataArray" || element == "Array";
+    if (array_depth_ > 0) return;  // what VTK knows of an array stands inside it
+    const bool array = is_array(element);
     if (element == "Piece") counts_.clear();
-    if (!is_array) parent_ = element;
+    if (!array) parent_ = element;
     std::string_view type, format, offset;
     std::uint64_t tuples = 0;
     name_.clear();
@@ -120,9 +121,10 @@ class XmlCheck {
       if (!count || *count > densest * text_.size())
         fault_ = fmt::format("{} is \"{}\"", key, value);
       else
-        (is_array ? tuples : counts_[std::string(key)]) = *count;
+        (array ? tuples : counts_[std::string(key)]) = *count;
     }
-    if (!is_array) return;
+    if (!array) return;
+    array_depth_ = depth_;
     if (type.empty())
       fault_ = "an array without a type";
     else if (std::find(std::begin(types), std::end(types), type) == std::end(types))
@@ -141,14 +143,18 @@ class XmlCheck {
 
   void take(std::string_view text) {
     constexpr std::size_t enough = 4096;  // for a header
-    if (inline_ && encoded_.size() < enough) encoded_ += trimmed(text.substr(0, enough));
+    if (inline_ && depth_ == array_depth_ && encoded_.size() < enough)
+      encoded_ += trimmed(text.substr(0, enough));
   }
 
   void end() {
-    --depth_;
+    if (depth_-- != array_depth_) return;
     if (inline_ && fault_.empty() && !encoded_.empty()) check_header(encoded_, false, 0);
     inline_ = false;
+    array_depth_ = 0;
   }
+
+  static bool is_array(std::string_view element) { return element == "DataArray" || element == "Array"; }
 
   static std::optional<std::uint64_t> whole_number(std::string_view text) {
     const auto digits = trimmed(text);  // Fortran pads numbers

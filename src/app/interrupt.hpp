@@ -2,7 +2,7 @@
 
 namespace chute::app {
 
-/// From now on Ctrl-C and SIGTERM do not kill: long work asks `interrupted()` and ends in order.
+/// From now on Ctrl-C, SIGTERM and a terminal that closes do not kill: long work asks `interrupted()` and ends in order.
 void watch_for_interrupt();
 bool interrupted();
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <csignal>
 #include <limits>
 #include <memory>
 #include <thread>
 
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
@@ -28,8 +28,6 @@ struct RenderArguments {
   bool tilt = false, arrows = false, chains = false, copies = false, impacts = false, occlusion = false,
        outlines = false, floor = false, box = false, no_spin = false, bare = false, quiet = false;
 };
-
-volatile std::sig_atomic_t stop_asked = 0;
 
 /// The numbers in `text`, divided by `separator`; empty places are NaN. InputError that says what `option`
 /// expects.
@@ -173,15 +171,13 @@ view::RenderJob job_of(const RenderArguments& a) {
 void render(const RenderArguments& a) {
   auto job = job_of(a);
   // Stopped between two frames, so that no part of a movie stays behind.
-  std::signal(SIGINT, [](int) { stop_asked = 1; });
-  std::signal(SIGTERM, [](int) { stop_asked = 1; });
-  if (std::signal(SIGHUP, [](int) { stop_asked = 1; }) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  watch_for_interrupt();
   Progress reading("read", a.quiet), drawing("render", a.quiet);
   job.progress = [&](const char* what, std::size_t done, std::size_t all) {
     const bool reads = std::string_view(what) == "reading";
     (reads ? reading : drawing)
         .show(static_cast<double>(done) / static_cast<double>(all), fmt::format("{} of {}", done, all));
-    if (stop_asked)
+    if (interrupted())
       throw WorkError(job.output.empty() ? "stopped; no movie was made"
                                          : "stopped; the same command goes on from there");
   };

@@ -65,18 +65,22 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
 static void refuse_depth(std::string_view text, const std::string& name) {
   constexpr std::size_t deepest = 64;
   std::size_t line = 1, dots = 0, open = 0;
-  char quote = 0;
+  std::string_view quote;  // that the text is inside of: one or three
   bool comment = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '\n') ++line, dots = 0, comment = false;
     if (comment) continue;
-    if (quote != 0) {
-      if (c == '\\' && quote == '"') ++i;
-      if (c == quote) quote = 0;
+    if (!quote.empty()) {
+      if (c == '\\' && quote[0] == '"') ++i;
+      if (text.substr(i).starts_with(quote)) i += quote.size() - 1, quote = {};
       continue;
     }
-    if (c == '"' || c == '\'') quote = c;
+    if (c == '"' || c == '\'') {
+      const auto three = text.substr(i, 3);
+      quote = three == "\"\"\"" || three == "\'\'\'" ? three : three.substr(0, 1);
+      i += quote.size() - 1;
+    }
     comment = c == '#';
     dots = c == '.' ? dots + 1 : c == '=' || c == ',' || c == '[' || c == '{' ? 0 : dots;
     if (c == '[' || c == '{') ++open;
@@ -103,6 +107,7 @@ void set_by_path(toml::table& table, std::string_view assignment) {
   const std::string key(assignment.substr(0, equals)), value(assignment.substr(equals + 1));
   const std::string name = "--set " + key;
   toml::table parsed;
+  refuse_depth(assignment, "--set");
   const bool removes = value.empty();
   if (!removes) try {
       parsed = toml::parse("value = " + value, name);

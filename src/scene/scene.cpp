@@ -234,7 +234,7 @@ static void check_step_count(const Scene& scene, const engines::Setting& setting
                             scene.duration, scene.duration / step, step, most));
 }
 
-/// Refuses outputs of which there would be more than a disk or a reader can take, and those that are due less than once in a step.
+/// Refuses outputs of which there would be more than a disk or a reader can take.
 static void check_output_count(const Scene& scene, const TomlReader& reader) {
   constexpr double most = 1e7;
   for (const auto& output : scene.output) {

@@ -9,34 +9,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from tiny_scene import TINY
+
 chute, sources = sys.argv[1:3]
 MEMORY = 2_000_000_000  # bytes that a command may take
 SECONDS = 20            # that it may last
 WRONG = 2
 
-SCENE = """units = "reduced"
-[incline]
-angle = "18 deg"
-[bed]
-count = 10
-[grains]
-count = 20
-diameter = { mean = 1.0, std = 0.05 }
-[contact.normal]
-law = "spring-dashpot"
-stiffness = 1e4
-restitution = 0.6
-[contact.tangential]
-law = "coulomb-viscous"
-viscosity = 500
-friction = 0.5
-[run]
-duration = 1
-[output]
-frames = { every = 1 }
-series = { every = 0.5 }
-profiles = { from = 0.5, bin = 1.0 }
-"""
+SCENE = TINY + "series = { every = 0.5 }\nprofiles = { from = 0.5, bin = 1.0 }\n"
 
 
 class Faults(unittest.TestCase):
@@ -67,16 +47,31 @@ class Faults(unittest.TestCase):
             self.assertIn("damaged or cut short", self.refused("info", file))
             self.assertIn("damaged or cut short", self.refused("render", file, "-o", "pictures"))
 
+    def test_what_stands_inside_an_array_hides_no_other(self):
+        """VTK keeps ranges inside arrays; the next array's header is looked at all the same."""
+        known = '<InformationKey name="RANGE" location="a"><Value index="0">AAAA</Value></InformationKey>'
+        (self.folder / "f.vtp").write_text(
+            '<VTKFile type="PolyData" byte_order="LittleEndian" compressor="vtkZLibDataCompressor"><PolyData>'
+            f'<Piece NumberOfPoints="1"><PointData><DataArray type="Float64" Name="a" format="ascii">1{known}</DataArray>'
+            f'<DataArray type="Float64" Name="b" format="binary">{known}AAAAAAAAAAAAAAAA</DataArray></PointData>'
+            '<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0</DataArray></Points>'
+            "</Piece></PolyData></VTKFile>")
+        self.assertIn('array "b": packed into no block', self.refused("info", "f.vtp"))
+
     def test_deep_files(self):
         deep = 200_000
         (self.folder / "deep.vtp").write_text('<VTKFile type="PolyData">' + "<a>" * deep + "</a>" * deep + "</VTKFile>")
         self.assertIn("levels deep", self.refused("info", "deep.vtp"))
-        for text in ("a" + ".a" * 50_000 + "=1", "[" + "a." * 50_000 + "a]", "x = " + "[" * 50_000, "x = " + "{a=" * 50_000):
+        for text in ("a" + ".a" * 50_000 + "=1", "[" + "a." * 50_000 + "a]", "x = " + "[" * 50_000, "x = " + "{a=" * 50_000,
+                     "x = \'\'\'it\'s\'\'\' \"\"\"a\"b\"\"\" " + "[" * 50_000):
             (self.folder / "deep.toml").write_text(text)
             self.assertIn("deep.toml:1: more than 64 levels deep", self.refused("check", "deep.toml"))
 
+        for setting in ("x=" + "[" * 20_000, "a" + ".a" * 20_000 + "=1"):
+            self.assertIn("more than 64 levels deep", self.refused("check", *self.scene(), "--set", setting))
+
     def test_dots_that_are_no_levels(self):
-        (self.folder / "s.toml").write_text("title = \"" + "." * 100 + "\" # " + "." * 100 + "\n" + SCENE)
+        (self.folder / "s.toml").write_text(SCENE.replace("tiny", "." * 100) + "# " + "." * 100 + "\n")
         self.assertEqual(self.run_chute("check", "s.toml").returncode, 0)
 
     def test_schedules_beyond_all_steps(self):
