@@ -15,7 +15,7 @@
 namespace chute::io {
 namespace {
 
-constexpr std::string_view magic = "chute checkpoint 4\n";
+constexpr std::string_view magic = "chute checkpoint 5\n";
 constexpr std::size_t digits = 16;   // of a length, in hexadecimal
 constexpr std::size_t trailer = 64;  // the hash, in hexadecimal
 
