@@ -60,9 +60,9 @@ struct Path {
   std::vector<Point> points;
 
   bool empty() const { return verbs.empty(); }
-  Path& move(Point p) { return add(Verb::move, p); }
-  Path& line(Point p) { return add(Verb::line, p); }
-  Path& cubic(Point a, Point b, Point c) {
+  Path& move(const Point& p) { return add(Verb::move, p); }
+  Path& line(const Point& p) { return add(Verb::line, p); }
+  Path& cubic(const Point& a, const Point& b, const Point& c) {
     verbs.push_back(Verb::cubic);
     points.insert(points.end(), {a, b, c});
     return *this;
@@ -77,7 +77,7 @@ struct Path {
   Rect bounds() const;  ///< of all points, control points included
 
  private:
-  Path& add(Verb verb, Point p) {
+  Path& add(Verb verb, const Point& p) {
     verbs.push_back(verb);
     points.push_back(p);
     return *this;

@@ -27,7 +27,7 @@ void check(const std::string& file, const std::vector<std::string>& settings) {
         {"places", static_cast<double>(places.size()), "", "places of the grid; the rest is of the first"});
   } else {
     const auto scene = scene::read_scene(file, settings);
-    run::Session(scene, 1);  // what a run would refuse, it refuses here
+    const run::Session refuses_what_a_run_would(scene, 1);
     resolved = to_toml(scene), facts = run::facts(scene), warnings = run::warnings(scene);
   }
   fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, resolved);

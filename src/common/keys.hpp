@@ -53,6 +53,11 @@ class KeyLister {
     add(key, "places", "", "", text);
   }
   template <class T>
+  void value(std::string_view key, const std::optional<T>& optional, const char* text) {
+    value(key, optional.value_or(T{}), text);
+    if (!optional) keys_.back().preset.clear();
+  }
+  template <class T>
   void value(std::string_view key, const T& v, const char* text) {
     if constexpr (std::same_as<T, double> || std::same_as<T, std::int64_t> ||
                   std::same_as<T, std::vector<double>>)
@@ -167,7 +172,7 @@ class Chosen {
   Chosen() = default;
   explicit Chosen(const Kind<Base>& kind) : word_(kind.word), thing_(kind.make()) {}
   Chosen(const Chosen& other) : word_(other.word_), thing_(other.thing_ ? other.thing_->clone() : nullptr) {}
-  Chosen(Chosen&&) = default;
+  Chosen(Chosen&&) noexcept = default;
   Chosen& operator=(Chosen other) {
     word_ = std::move(other.word_), thing_ = std::move(other.thing_);
     return *this;

@@ -187,6 +187,10 @@ class TomlWriter {
   void value(std::string_view key, const T& v, const char*) {
     value(key, v);
   }
+  template <class T>
+  void value(std::string_view key, const std::optional<T>& optional, const char*) {
+    if (optional) value(key, *optional);
+  }
   template <class T, class... Rule>
   void value(std::string_view key, const std::optional<T>& optional, Rule... rule) {
     if (optional) value(key, *optional, rule...);

@@ -1,4 +1,6 @@
 #pragma once
+// Philox alone needs no vector instructions, and their headers are a third of what a file that draws numbers would read.
+#define R123_USE_SSE 0
 #include <Random123/philox.h>
 
 #include <array>

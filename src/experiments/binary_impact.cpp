@@ -78,7 +78,7 @@ ImpactOutcome<D> collide(const BinaryImpact<D>& impact) {
     engine.advance_to(static_cast<std::int64_t>(0.4 * steps));  // no contact ends so early
   bool touched = false;
   const double patience = engine.time() + 1000 * steps * setup.time_step;
-  step_until<D>(engine, watch, lead, patience, "the grains do not part", [&] {
+  step_until<D>(engine, watch, lead, patience, "the grains do not part", [&, trace = trace] {
     const auto contacts = engine.contacts();
     touched |= !contacts.empty();
     if (trace && !contacts.empty())

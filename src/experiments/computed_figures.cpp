@@ -109,6 +109,13 @@ FigureTable compute_fig_3_10(const FigureContext& context) {
   return table;
 }
 
+constexpr auto ringing_note =
+    "b, c: integrated exactly, the tangential spring has no damping of its own, so the sticking contact goes on "
+    "ringing, at F_p = 0.2 over the full friction force; the thesis's table shows the mean";
+constexpr auto stretched_note =
+    "b at F_p = 0.2: the spring of the plane, stretched by all the slip before, still holds the sliding force; it "
+    "lets go at t = 0.072 and then swings to the other side";
+
 FigureTable compute_table_3_1(const FigureContext& context) {
   FigureTable table;
   table.comments = {"x: 1 F_s^p, 2 F_s^b (mg), 3 dv/dt, 4 domega/dt (g, g/r); panel: F_p",
@@ -116,12 +123,8 @@ FigureTable compute_table_3_1(const FigureContext& context) {
                     "theory: (3.26) to (3.31); a, b, c: mean over the last quarter of each push",
                     set_up_note,
                     laws_note,
-                    "b, c: integrated exactly, the tangential spring has no damping of its own, so the "
-                    "sticking contact goes on "
-                    "ringing, at F_p = 0.2 over the full friction force; the thesis's table shows the mean",
-                    "b at F_p = 0.2: the spring of the plane, stretched by all the slip before, still holds "
-                    "the sliding force; it "
-                    "lets go at t = 0.072 and then swings to the other side"};
+                    ringing_note,
+                    stretched_note};
   constexpr double CylinderState::*quantities[] = {&CylinderState::plane_force, &CylinderState::block_force,
                                                    &CylinderState::acceleration, &CylinderState::spin_up};
   const double end = first.duration + second.duration;

@@ -1,7 +1,6 @@
 #include "measure/series.hpp"
 
 #include <array>
-#include <cereal/types/string.hpp>
 #include <cmath>
 #include <numbers>
 

@@ -245,13 +245,13 @@ std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers
 
 std::optional<Refusal> refusal_of(const Scene& scene) {
   const auto site = site_of(scene);
-  if (const auto wrong = scene.bed->misfit(site)) return wrong;
+  if (auto wrong = scene.bed->misfit(site)) return wrong;
   const auto ground = scene.bed->lay(site);
   const auto periods = periods_of(scene, ground);
   if (periods.wrong) return periods.wrong;
   const bool brings_grains = scene.engine->brings_grains();
   if (!brings_grains)
-    if (const auto wrong = scene.grains.start->misfit(opening_of(scene, ground, periods))) return wrong;
+    if (auto wrong = scene.grains.start->misfit(opening_of(scene, ground, periods))) return wrong;
 
   const auto setting = setting_of(scene);
   constexpr double clear =

@@ -33,9 +33,9 @@ std::vector<Launch> Square::begin(const Opening& o) const {
   };
   std::vector<Launch> launches;
   for (std::size_t i = 0; i < o.radii.size(); ++i) {
-    const auto k = static_cast<std::int64_t>(i);
+    const auto k = static_cast<std::int64_t>(i), layer = k / (nx * ny);
     launches.push_back(launch_at(o, middle(k % nx, nx, o.length), middle(k / nx % ny, ny, o.width),
-                                 lowest + static_cast<double>(k / (nx * ny)) * step(o), o.radii[i]));
+                                 lowest + static_cast<double>(layer) * step(o), o.radii[i]));
   }
   set_velocities(o, launches);
   return launches;

@@ -11,7 +11,7 @@ Base::Base(std::filesystem::path scene_file, std::vector<std::string> settings)
 
 scene::Scene Base::scene(const std::vector<std::string>& more) const {
   auto settings = set;
-  settings.push_back("sweep=");  // the grid itself is no part of a run
+  settings.emplace_back("sweep=");  // the grid itself is no part of a run
   settings.insert(settings.end(), more.begin(), more.end());
   auto scene = scene::parse_scene(text, file.string(), settings);
   scene.drop_outputs();

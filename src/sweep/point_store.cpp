@@ -52,7 +52,7 @@ Followed PointStore::get(const scene::Scene& scene, const Report& progress) cons
   if (const auto known = find(scene)) return *known;
   if (only_known_) throw PointIsMissing{};
   if (!progress(0)) throw WorkError("stopped");
-  const auto followed = follow(scene, progress);
+  auto followed = follow(scene, progress);
   put(scene, followed);
   return followed;
 }

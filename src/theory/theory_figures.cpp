@@ -98,8 +98,9 @@ FigureTable compute_fig_4_04(const FigureContext& context) {
   table.comments = {
       "x: sin theta",
       "y: mean velocity v_x per time, m/s",
-      "stochastic model (4.1.3): r = 0.5 mm, eps = 0, mu = "
-      "0.142, e_n = 0.9, beta = 0.45; y_err from block averages",
+      fmt::format("stochastic model (4.1.3): r = 0.5 mm, eps = 0, mu = {}, e_n = {}, beta = {}; y_err from "
+                  "block averages",
+                  0.142, 0.9, 0.45),
       fmt::format("made with {} impacts a point, seed 1; no point where the ball is trapped or runs away",
                   hops),
       "R=3mm ...: e_t by (4.8), as published; with (4.9): e_t of a ball that cannot turn",

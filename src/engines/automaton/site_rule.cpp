@@ -45,11 +45,11 @@ std::vector<std::pair<Site, int>> losses(Site site) {
   std::vector<std::pair<Site, int>> ways;
   if (s == 0)
     for (int k = 0; k < 3; ++k)
-      if ((m & bit(k)) && (m & bit(k + 3))) ways.push_back({site_of(m & ~(bit(k) | bit(k + 3)), 2), 2});
+      if ((m & bit(k)) && (m & bit(k + 3))) ways.emplace_back(site_of(m & ~(bit(k) | bit(k + 3)), 2), 2);
   if (s <= 1)
     for (int k = 0; k < directions; ++k)
       if ((m & bit(k - 1)) && (m & bit(k + 1)) && !(m & bit(k)))
-        ways.push_back({site_of((m & ~(bit(k - 1) | bit(k + 1))) | bit(k), s + 1), 1});
+        ways.emplace_back(site_of((m & ~(bit(k - 1) | bit(k + 1))) | bit(k), s + 1), 1);
   return ways;
 }
 

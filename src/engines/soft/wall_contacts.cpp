@@ -17,7 +17,8 @@ WallContacts<D>::WallContacts(const Surroundings<D>& around, const laws::Contact
 }
 
 template <int D>
-WallContacts<D>::Touch WallContacts<D>::touch(std::size_t wall, const Vec<D>& place, double time) const {
+typename WallContacts<D>::Touch WallContacts<D>::touch(std::size_t wall, const Vec<D>& place,
+                                                       double time) const {
   const auto nearest = walls_[wall].nearest(place, time, domain_);
   return {nearest, walls_[wall].surface_velocity(nearest, time)};
 }

@@ -12,7 +12,7 @@ namespace {
 
 struct Place {
   std::uint32_t row, column;
-  auto operator<=>(const Place&) const = default;
+  auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr): there is none
 };
 
 template <int D>
@@ -37,6 +37,8 @@ bool positive_definite(const Block<D>& block) {
 
 }  // namespace
 
+// It is moved from below, which the check does not see in a template.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 template <int D>
 Problem<D> assemble(std::span<const Entry> entries, std::vector<Vec<D>> q, std::vector<double> friction) {
   const auto m = q.size();
