@@ -85,6 +85,13 @@ struct Map {
   int contours = 0;                 ///< lines of equal value, evenly between the ends of the colours
 };
 
+/// Lines through points, as thick as a number: a network of forces.
+struct Chains {
+  std::vector<double> x, y;    ///< their middles
+  std::vector<double> dx, dy;  ///< from end to end
+  std::vector<double> weight;  ///< the thickness is in proportion
+};
+
 struct Plot {
   std::string title;
   Axis x, y;
@@ -93,6 +100,7 @@ struct Plot {
   std::vector<Region> regions;
   std::vector<Note> notes;
   std::optional<Map> map;  ///< beneath everything else; its colour bar stands on the right
+  std::optional<Chains> chains;
 };
 
 /// A small plot inside a panel.

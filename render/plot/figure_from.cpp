@@ -214,12 +214,34 @@ class Builder {
     return map;
   }
 
+  /// What belongs to the lines is no series of its own.
+  Chains make_chains(const PanelRecipe& p, std::vector<Series>& series) const {
+    const auto& wanted = *p.chains;
+    const auto named = [&](const std::string& name) -> const Series& {
+      require_series(name, p.label);
+      for (const auto& s : series)
+        if (s.name == name) return s;
+      fail_recipe(fmt::format("chains: series \"{}\" is off", name));
+    };
+    const auto &places = named(wanted.places), &branches = named(wanted.branches),
+               &weights = named(wanted.weights);
+    if (branches.x.size() != places.x.size() || weights.x.size() != places.x.size())
+      fail(fmt::format("{}, {} and {} must have one row for each line", wanted.places, wanted.branches,
+                       wanted.weights));
+    Chains chains{places.x, places.y, branches.x, branches.y, weights.y};
+    std::erase_if(series, [&](const Series& s) {
+      return s.name == wanted.places || s.name == wanted.branches || s.name == wanted.weights;
+    });
+    return chains;
+  }
+
   Panel make_panel(const PanelRecipe& p) const {
     Panel panel;
     panel.label = p.tag.value_or(p.label), panel.title = p.title, panel.legend = p.legend;
     panel.x = make_axis(recipe_.x, p.x), panel.y = make_axis(recipe_.y, p.y);
     panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
     panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
+    if (p.chains) panel.chains = make_chains(p, panel.series);
     if (p.map) {
       panel.map = make_map(p, panel.series);
       // A map fills its frame.

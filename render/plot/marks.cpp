@@ -279,11 +279,39 @@ Extents extents_of(const Plot& plot) {
     for (const double x : cell_edges(plot.map->x)) e.x.include(x, plot.x.scale);
     for (const double y : cell_edges(plot.map->y)) e.y.include(y, plot.y.scale);
   }
+  if (plot.chains) {
+    for (const double x : plot.chains->x) e.x.include(x, plot.x.scale);
+    for (const double y : plot.chains->y) e.y.include(y, plot.y.scale);
+  }
   for (const auto& r : plot.references) {
     if (r.kind == Reference::Kind::horizontal) e.y.include(r.at, plot.y.scale);
     if (r.kind == Reference::Kind::vertical) e.x.include(r.at, plot.x.scale);
   }
   return e;
+}
+
+/// The thickest line is as thick as the middles of neighbours are far apart, about; those that would be too thin to see are
+/// left out.
+static void draw_chains(Painter& painter, const Frame& frame, const Chains& chains) {
+  constexpr double thickest = 0.6, thinnest = 0.04;  // of a typical length; points
+  std::vector<Point> begin, end;
+  double length = 0, heaviest = 0;
+  for (std::size_t k = 0; k < chains.x.size(); ++k) {
+    begin.push_back(frame.at(chains.x[k] - chains.dx[k] / 2, chains.y[k] - chains.dy[k] / 2));
+    end.push_back(frame.at(chains.x[k] + chains.dx[k] / 2, chains.y[k] + chains.dy[k] / 2));
+    length += std::hypot(end[k].x() - begin[k].x(), end[k].y() - begin[k].y()) /
+              static_cast<double>(chains.x.size());
+    heaviest = std::max(heaviest, chains.weight[k]);
+  }
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    Stroke stroke;
+    stroke.width = heaviest > 0 ? thickest * length * chains.weight[k] / heaviest : 0;
+    stroke.cap = Cap::round;
+    if (stroke.width < thinnest) continue;
+    Path path;
+    path.move(begin[k]).line(end[k]);
+    painter.list.stroke(std::move(path), stroke, painter.look.ink);
+  }
 }
 
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
@@ -297,6 +325,7 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   for (auto& s : series) s.area();
   for (auto& s : series) s.dots();
   for (auto& s : series) s.lines();
+  if (plot.chains) draw_chains(painter, frame, *plot.chains);
   painter.list.items.emplace_back(ClipEnd{});
   for (auto& s : series) s.error_bars();
   for (auto& s : series) s.markers();

@@ -119,6 +119,12 @@ static void describe(TomlReader& a, MapRecipe& map) {
   a.value("contours", map.contours, between(0, 50));
 }
 
+static void describe(TomlReader& a, ChainsRecipe& chains) {
+  a.required("places", chains.places);
+  a.required("branches", chains.branches);
+  a.required("weights", chains.weights);
+}
+
 static void describe(TomlReader& a, PanelRecipe& panel) {
   a.value("label", panel.label);
   a.value("tag", panel.tag);
@@ -131,6 +137,7 @@ static void describe(TomlReader& a, PanelRecipe& panel) {
   a.sections("note", panel.notes);
   a.sections("inset", panel.insets);
   a.section("map", panel.map);
+  a.section("chains", panel.chains);
 }
 
 static void describe(TomlReader& a, SeriesRecipe& series) {

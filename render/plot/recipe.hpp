@@ -43,6 +43,9 @@
 ///     note = [{ text = "B", x = 2.2, y = 0.17, fraction = false }]   # its middle; fraction: of the frame, from its lower left
 ///     map = { series = "density t=*", label = "$\\rho$", low = 0, high = 1, diverging = false, contours = 0 }
 ///                               # colours: each series that matches is a row, whose place along y follows its name's last =
+///     chains = { places = "network", branches = "branch", weights = "force" }
+///                               # a line through each row of `places`, along that row of `branches` (x, y: from end to end),
+///                               # as thick as that of `weights` (y)
 ///     inset = [{ series = ["e_n=0.8*"], panel = "i", x = { … }, y = { … }, place = "automatic", width = 0.42, height = 0.4 }]
 ///                               # series and panel: what it shows, default all of this panel; a panel that only an inset
 ///                               # names is drawn there only; place: automatic or a corner; width, height: of the frame
@@ -92,6 +95,10 @@ struct MapRecipe {
   std::int64_t contours = 0;
 };
 
+struct ChainsRecipe {
+  std::string places, branches, weights;
+};
+
 struct PanelRecipe {
   std::string label, title;
   std::optional<std::string> tag;  ///< stands for the label in the picture
@@ -102,6 +109,7 @@ struct PanelRecipe {
   std::vector<Note> notes;
   std::vector<InsetRecipe> insets;
   std::optional<MapRecipe> map;
+  std::optional<ChainsRecipe> chains;
 };
 
 struct PlotRecipe {

@@ -6,8 +6,14 @@ namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
 constexpr std::array extract_words{
-    "histogram"sv, "return-map"sv, "scatter"sv, "peak"sv, "profile"sv,  "series"sv,     "last"sv,
-    "pressure"sv,  "value"sv,      "line"sv,    "map"sv,  "spectrum"sv, "avalanches"sv, "mean-avalanche"sv};
+    "histogram"sv, "return-map"sv, "scatter"sv, "peak"sv,   "profile"sv,  "series"sv,     "last"sv,
+    "pressure"sv,  "value"sv,      "line"sv,    "map"sv,    "spectrum"sv, "avalanches"sv, "mean-avalanche"sv,
+    "table"sv,     "cooling"sv,    "rate"sv,    "record"sv, "network"sv,  "depth"sv,      "janssen"sv};
+
+bool is_point_by_point(Extract extract) {
+  return extract == Extract::peak || extract == Extract::last || extract == Extract::pressure ||
+         extract == Extract::value || extract == Extract::rate || extract == Extract::record;
+}
 }  // namespace
 
 static void describe(TomlReader& a, Where& where) {
@@ -40,7 +46,15 @@ static void describe(TomlReader& a, Curve& curve) {
   if (scatter) a.required("against", curve.against), a.value("absolute_x", curve.absolute_x);
   if (value) a.required("file", curve.file);
   if (histogram || scatter) a.value("file", curve.file), a.sections("where", curve.where);
-  if (histogram || value) a.value("scale", curve.scale);
+  const bool table = curve.extract == Extract::table;
+  if (table) a.required("file", curve.file), a.required("against", curve.against);
+  const bool rate = curve.extract == Extract::rate || curve.extract == Extract::record;
+  if (histogram || value || rate || curve.extract == Extract::network) a.value("scale", curve.scale);
+  if (rate) a.value("scale_x", curve.scale_x);
+  if (curve.extract == Extract::cooling) {
+    a.required("packing", curve.packing, between(1e-6, 0.9));
+    a.required("restitution", curve.restitution, between(0, 1));
+  }
   if (line) a.required("slope", curve.slope);
   if (histogram) a.value("over_sine", curve.over_sine), a.value("times_velocity", curve.times_velocity);
   if (histogram) a.value("bins", curve.bins, between(2, 100000));
@@ -58,8 +72,7 @@ static void describe(TomlReader& a, Curve& curve) {
     a.value("bandwidth", curve.bandwidth, positive);
     a.value("widest", curve.widest, positive);
   }
-  if (curve.extract == Extract::peak || curve.extract == Extract::last ||
-      curve.extract == Extract::pressure || value) {
+  if (is_point_by_point(curve.extract)) {
     a.required("vary", curve.vary);
     a.required("values", curve.values);
     a.check(!curve.values.empty(), "values", "must hold at least one value");

@@ -27,7 +27,14 @@ enum class Extract {
   map,         ///< a field of cells against x, one series a file
   spectrum,    ///< of that field's fluctuations in time
   avalanches,  ///< distribution of avalanches' sizes, of a pile as long as `length`
-  mean_avalanche  ///< their mean size, against `length`
+  mean_avalanche,  ///< their mean size, against `length`
+  table,           ///< a column of `file` against the column `against`, averaged over the runs
+  cooling,         ///< √(T_0/T) or a_2 of a gas against t/τ (extract_hard.hpp, as all that follow)
+  rate,            ///< how fast a column of series.csv changes, against the value of `vary`
+  record,          ///< a number of run.json, against that
+  network,         ///< contacts of the last frame
+  depth,           ///< a column of profiles.csv against the depth below the surface
+  janssen          ///< Janssen's law fitted to that
 };
 
 /// Which rows count: those whose column lies in [low, high).
@@ -51,11 +58,13 @@ struct Curve {
   std::string column;               ///< what is drawn (y; x of a histogram)
   std::vector<Where> where;         ///< histogram, scatter: only rows that all of these let pass
   bool over_sine = false;           ///< histogram: divided by the sine of x, the size of a ring on a sphere
-  double scale = 1;                 ///< histogram: x times this; value: y
-  bool times_velocity = false;      ///< histogram: and x times the run's mean velocity: a time becomes a way
-  double slope = 1;                 ///< line
-  std::string against;              ///< scatter: the column for x
-  std::int64_t bins = 100;          ///< histogram
+  double scale = 1;                 ///< histogram: x times this; value, rate, record, network: y
+  double scale_x = 1;               ///< rate, record: x times this
+  double packing = 0, restitution = 1;  ///< cooling: φ and e_n
+  bool times_velocity = false;  ///< histogram: and x times the run's mean velocity: a time becomes a way
+  double slope = 1;             ///< line
+  std::string against;          ///< scatter: the column for x
+  std::int64_t bins = 100;      ///< histogram
   std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
   double fold = 0;                           ///< histogram, scatter: take angles modulo this; 0: as they are
   bool absolute = false;                     ///< histogram, scatter: the column's absolute value

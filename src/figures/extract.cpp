@@ -11,6 +11,7 @@
 #include "common/fields.hpp"
 #include "core/estimate.hpp"
 #include "figures/extract_fields.hpp"
+#include "figures/extract_hard.hpp"
 #include "figures/peaks.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
@@ -296,6 +297,20 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return avalanche_sizes(curve, runs);
     case Extract::mean_avalanche:
       return mean_avalanche(curve, runs);
+    case Extract::table:
+      return averaged(curve, runs, *curve.file, curve.against);
+    case Extract::cooling:
+      return cooling(curve, runs);
+    case Extract::rate:
+      return rate(curve, runs);
+    case Extract::record:
+      return record(curve, runs);
+    case Extract::network:
+      return network(curve, runs);
+    case Extract::depth:
+      return depth(curve, runs);
+    case Extract::janssen:
+      return janssen(curve, runs);
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include "common/hash.hpp"
 #include "common/side_by_side.hpp"
 #include "figures/extract.hpp"
+#include "figures/extract_hard.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
 #include "run/version.hpp"
@@ -44,7 +45,7 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
           settings.insert(settings.end(), cheaper->begin(), cheaper->end());
       settings.push_back(fmt::format("seed={}", seed));
       auto scene = scene::read_scene(scene_file, settings);
-      scene.drop_output("frames");  // a figure needs none
+      if (curve.extract != Extract::network) scene.drop_output("frames");  // other figures need none
       const auto text = scene::to_toml(scene);
       const auto [at, is_new] = known.try_emplace(text, plan.jobs.size());
       if (is_new) {
@@ -131,6 +132,8 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
         part && recipe.curves[c].extract == Extract::scatter)
       table.comments.push_back(fmt::format("{} {}: {:.1f} % of the rows are left out", recipe.curves[c].panel,
                                            recipe.curves[c].series, 100 * *part));
+    if (recipe.curves[c].extract == Extract::janssen)
+      table.comments.push_back(janssen_note(recipe.curves[c], runs));
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }
   if (!recipe.sweeps.empty()) {

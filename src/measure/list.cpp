@@ -1,6 +1,8 @@
 #include "measure/avalanches.hpp"
 #include "measure/ball_outputs.hpp"
 #include "measure/cells.hpp"
+#include "measure/force_distribution.hpp"
+#include "measure/moments.hpp"
 #include "measure/outputs.hpp"
 #include "measure/pair_distances.hpp"
 
@@ -15,6 +17,7 @@ Catalogue<Output>& list() {
       kind_of<Output, DiffusionOutput>(),  kind_of<Output, BeadsOutput>(),
       kind_of<Output, TrappingOutput>(),   kind_of<Output, BedOutput>(),
       kind_of<Output, AvalanchesOutput>(), kind_of<Output, CellsOutput>(),
+      kind_of<Output, ForcesOutput>(),     kind_of<Output, MomentsOutput>(),
   };
   return all;
 }

@@ -47,10 +47,16 @@ static void describe(Archive& a, Incline& incline) {
     a.value("angle", incline.angle,
             "inclination, \"18 deg\" or \"0.3 rad\"; or { from, to, rate } of one that is tilted");
   a.value("sin", incline.sine, between(-1, 1), "its sine instead");
+  a.value("tan", incline.tangent, "its tangent instead");
   a.value("gravity", incline.gravity, non_negative, "g; default 9.81 m/s² in SI, 1 in reduced units");
   if constexpr (Archive::reading) {
-    a.check((incline.angle || incline.tilting) != incline.sine.has_value(), incline.sine ? "sin" : "angle",
-            "give either angle = \"18 deg\" or sin = 0.31");
+    const int given =
+        (incline.angle || incline.tilting) + incline.sine.has_value() + incline.tangent.has_value();
+    a.check(given == 1,
+            incline.sine      ? "sin"
+            : incline.tangent ? "tan"
+                              : "angle",
+            "give either angle = \"18 deg\" or sin = 0.31, or tan = 0.32");
     if (incline.angle) {
       const auto theta = parse_angle(*incline.angle);
       a.check(theta.has_value(), "angle",
@@ -217,7 +223,8 @@ Tilt Tilting::tilt(double gravity) const {
 }
 
 double Incline::theta() const {
-  return tilting ? tilting->tilt(gravity).from : sine ? std::asin(*sine) : parse_angle(*angle).value();
+  if (tilting) return tilting->tilt(gravity).from;
+  return sine ? std::asin(*sine) : tangent ? std::atan(*tangent) : parse_angle(*angle).value();
 }
 
 /// Refuses runs of more steps than can be counted.

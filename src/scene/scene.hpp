@@ -34,7 +34,7 @@ struct Tilting {
 struct Incline {
   std::optional<std::string> angle;
   std::optional<Tilting> tilting;  ///< the same key as a table
-  std::optional<double> sine;
+  std::optional<double> sine, tangent;
   double gravity = 0;    ///< g; default 9.81 m/s² in SI, 1 in reduced units
   double theta() const;  ///< at the start
 };

@@ -144,12 +144,70 @@ FigureTable compute_theory_m_08(const FigureContext& context) {
   return table;
 }
 
+FigureTable compute_theory_m_02(const FigureContext& context) {
+  constexpr double e = 0.9, until = 7;
+  FigureTable table;
+  table.comments = {"theory: a: 1 + t/tau (Haff); b: a_2 of van Noije & Ernst (1998)"};
+  const int points = context.quick ? 7 : 70;
+  for (int k = 0; k <= points; ++k) {
+    const double x = until * k / points;
+    table.rows.push_back({"a", "theory", x, 1 + x});
+    table.rows.push_back({"b", "theory", x, sonine_a2(e, 2)});
+  }
+  return table;
+}
+
+namespace {
+
+/// Accelerations over g of what slides or rolls down a plane, at the tangent of its angle.
+double at_angle(double tangent, double along, double across) {
+  return (along * tangent - across) / std::sqrt(1 + tangent * tangent);
+}
+
+}  // namespace
+
+FigureTable compute_theory_m_03(const FigureContext& context) {
+  constexpr double mu_s = 0.5, mu_d = 0.3, kappa = 0.4, roll = (1 + kappa) / kappa;
+  FigureTable table;
+  table.comments = {
+      "theory: a: rests up to tan theta = mu, then g (sin theta - mu_d cos theta); b: rolls with g sin theta/(1 + 2/5) "
+      "up to 7/2 mu, then slides; mu: mu_s from rest, mu_d pushed"};
+  const int points = context.quick ? 60 : 300;
+  for (const auto& [series, mu] : {std::pair("theory from rest", mu_s), std::pair("theory pushed", mu_d)})
+    for (const auto& [panel, limit, most] : {std::tuple("a", mu, 0.8), std::tuple("b", roll * mu, 2.4)}) {
+      const double held =
+          *panel == 'a' ? 0 : 1 / (1 + kappa);  // part of g sin θ that is left while the contact sticks
+      for (int k = 0; k <= points; ++k)
+        if (const double x = most * k / points; x < limit)
+          table.rows.push_back({panel, series, x, at_angle(x, held, 0)});
+      table.rows.push_back({panel, series, limit, at_angle(limit, held, 0)});
+      table.rows.push_back({panel, series, limit, at_angle(limit, 1, mu_d)});
+      for (int k = 0; k <= points; ++k)
+        if (const double x = most * k / points; x > limit)
+          table.rows.push_back({panel, series, x, at_angle(x, 1, mu_d)});
+    }
+  return table;
+}
+
+FigureTable compute_theory_m_05(const FigureContext&) {
+  // P = k x^α below the mean and k exp(β(1 − x)) above; that P is normalised and its mean 1 gives k and α from β.
+  constexpr double beta = 1.45;
+  const double alpha = (-3 + std::sqrt(1 + 4 * beta * beta)) / 2, k = 1 / (1 / (1 + alpha) + 1 / beta);
+  FigureTable table;
+  table.comments = {fmt::format(
+      "radjai: {:.3g} exp({} (1 - x)) above the mean, the published slope being 1.4 to 1.5 (Radjai et al. 1996)",
+      k, beta)};
+  for (const double x : {1.0, 8.0}) table.rows.push_back({"", "radjai", x, k * std::exp(beta * (1 - x))});
+  return table;
+}
+
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures() {
   static const std::map<std::string, std::function<FigureTable(const FigureContext&)>> all{
       {"fig-4-04", compute_fig_4_04},       {"fig-4-19", compute_fig_4_19},
       {"fig-4-31", compute_fig_4_31},       {"theory-4-17", compute_theory_4_17},
       {"theory-4-18", compute_theory_4_18}, {"theory-4-20", compute_theory_4_20},
-      {"theory-m-08", compute_theory_m_08}};
+      {"theory-m-02", compute_theory_m_02}, {"theory-m-03", compute_theory_m_03},
+      {"theory-m-05", compute_theory_m_05}, {"theory-m-08", compute_theory_m_08}};
   return all;
 }
 

@@ -97,9 +97,9 @@ TEST_CASE("what is required is said to be missing, at the table that lacks it") 
 }
 
 TEST_CASE("of two that exclude each other exactly one is wanted") {
-  const std::string angle = "incline.angle: give either angle = \"18 deg\" or sin = 0.31";
+  const std::string angle = "incline.angle: give either angle = \"18 deg\" or sin = 0.31, or tan = 0.32";
   CHECK(refused("angle = \"18 deg\"", "angle = \"18 deg\"\nsin = 0.3") ==
-        "scene.toml:6: incline.sin: give either angle = \"18 deg\" or sin = 0.31");
+        "scene.toml:6: incline.sin: give either angle = \"18 deg\" or sin = 0.31, or tan = 0.32");
   CHECK(refused("angle = \"18 deg\"", "") == "scene.toml:4: " + angle);
   CHECK(refused("restitution = 0.6", "restitution = 0.6\ndamping = 3.0") ==
         "scene.toml:18: contact.normal.damping: give either restitution or damping");
