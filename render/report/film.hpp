@@ -11,7 +11,7 @@ namespace chute::report {
 
 struct FilmOptions {
   int width = 960, height = 540;  ///< pixels
-  std::size_t frames = 200;        ///< at most; of a longer run every n-th is taken
+  std::size_t frames = 200;       ///< at most; of a longer run every n-th is taken
   int jobs = 1;
   std::string color;  ///< as `chute render --color`
   /// Hears how much of all films is done, 0 to 1.

@@ -255,7 +255,7 @@ std::vector<plot::Panel> return_panels(Runs runs, std::string& caption) {
         curve.x.push_back((*before)[i]), curve.y.push_back((*after)[i]);
     if (curve.x.empty()) continue;
     const std::size_t stride = curve.x.size() / most_dots + 1;
-    if (stride > 1) caption += fmt::format(" Of {} every {}th impact.", run.name, stride);
+    if (stride > 1) caption += fmt::format(" Of {} one impact in {}.", run.name, stride);
     thin(curve.x, stride), thin(curve.y, stride);
     plot::Panel panel;
     panel.x.label = "$\\gamma_n$ (rad)", panel.y.label = "$\\gamma_{n+1}$ (rad)";

@@ -31,7 +31,7 @@ const std::vector<Topic>& topics() {
        {one({"v_x", "$\\bar{v}_x$", "m/s", "\\sqrt{gd}"}),
         one({"omega", "$\\bar{\\omega}$", "rad/s", "\\sqrt{g/d}"})}},
       {"energy", "Energy in time", "series.csv",
-       "Left: what the grains have. Right: what came in and was lost since the start.",
+       "What the grains have, and what came in and was lost since the start.",
        "output.series = { every = … }",
        {"time", "$t$", "s", "\\sqrt{d/g}"},
        {{{{"translation", "translation", "J", "mgd"}, {"rotation", "rotation", "J", "mgd"}, {"elastic", "elastic", "J", "mgd"}}, energy},
