@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "common/base64.hpp"
 #include "image/png.hpp"
 #include "plot/cairo_canvas.hpp"
 #include "plot/font_subset.hpp"
@@ -38,19 +39,6 @@ std::string numbers(const std::vector<double>& values) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return out;
-}
-
-std::string base64(const std::string& bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63];
-  }
   return out;
 }
 

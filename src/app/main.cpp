@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   app::add_sweep(app);
   app::add_figure(app);
   app::add_compare(app);
+  app::add_report(app);
   app::add_theory(app);
   app::add_manual(app);
 

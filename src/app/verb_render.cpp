@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <thread>
+#include <tuple>
 
 #include "app/interrupt.hpp"
+#include "app/numbers.hpp"
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
@@ -28,42 +29,6 @@ struct RenderArguments {
   bool tilt = false, arrows = false, chains = false, copies = false, impacts = false, occlusion = false,
        outlines = false, floor = false, box = false, no_spin = false, bare = false, quiet = false;
 };
-
-/// The numbers in `text`, divided by `separator`; empty places are NaN. InputError that says what `option`
-/// expects.
-std::vector<double> numbers(const std::string& option, const std::string& text, char separator,
-                            const char* expected) {
-  std::vector<double> values;
-  std::size_t from = 0;
-  for (;;) {
-    const auto to = std::min(text.find(separator, from), text.size());
-    double value = std::numeric_limits<double>::quiet_NaN();
-    const char* const end = text.data() + to;
-    const auto [stop, error] = std::from_chars(text.data() + from, end, value);
-    if (to > from && (error != std::errc() || stop != end))
-      throw InputError(fmt::format("{} {}: expected {}", option, text, expected));
-    values.push_back(value);
-    if (to == text.size()) return values;
-    from = to + 1;
-  }
-}
-
-void require(bool holds, const std::string& option, const std::string& text, const char* expected) {
-  if (!holds) throw InputError(fmt::format("{} {}: expected {}", option, text, expected));
-}
-
-bool all_given(const std::vector<double>& values) {
-  return std::none_of(values.begin(), values.end(), [](double x) { return std::isnan(x); });
-}
-
-void read_size(const std::string& text, view::FrameStyle& style) {
-  constexpr const char* expected = "WIDTHxHEIGHT in pixels, such as 1920x1080";
-  const auto sides = numbers("--size", text, 'x', expected);
-  require(sides.size() == 2 && all_given(sides) && sides[0] == std::floor(sides[0]) &&
-              sides[1] == std::floor(sides[1]) && std::abs(sides[0]) < 1e6 && std::abs(sides[1]) < 1e6,
-          "--size", text, expected);
-  style.width = static_cast<int>(sides[0]), style.height = static_cast<int>(sides[1]);
-}
 
 /// `follow`, `follow:mean`, `follow:ID`; false if it is something else.
 bool read_follow(const std::string& text, view::Camera& camera) {
@@ -141,7 +106,7 @@ view::RenderJob job_of(const RenderArguments& a) {
   view::RenderJob job;
   job.source = a.run;
   auto& style = job.style;
-  if (!a.size.empty()) read_size(a.size, style);
+  if (!a.size.empty()) std::tie(style.width, style.height) = read_size(a.size);
   style.color = a.color, style.map = a.map;
   if (!a.range.empty()) {
     const auto values = numbers("--range", a.range, ':', "LOW:HIGH");

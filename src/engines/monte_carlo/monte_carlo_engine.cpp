@@ -319,7 +319,7 @@ std::vector<std::pair<std::string, double>> MonteCarloEngine<D>::tells() const {
   return {{"packing_fraction", packing.fraction},
           {"mean_height", packing.mean_height},
           {"tracer", packing.tracer},
-          {"sweeps", static_cast<double>(sweeps_)},
+          {"sweeps_made", static_cast<double>(sweeps_)},
           {"acceptance", acceptance()},
           {"trial_length", delta_}};
 }

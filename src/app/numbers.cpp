@@ -1,0 +1,48 @@
+#include "app/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "common/error.hpp"
+
+namespace chute::app {
+
+std::vector<double> numbers(const std::string& option, const std::string& text, char separator,
+                            const char* expected) {
+  std::vector<double> values;
+  std::size_t from = 0;
+  for (;;) {
+    const auto to = std::min(text.find(separator, from), text.size());
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const char* const end = text.data() + to;
+    const auto [stop, error] = std::from_chars(text.data() + from, end, value);
+    if (to > from && (error != std::errc() || stop != end))
+      throw InputError(fmt::format("{} {}: expected {}", option, text, expected));
+    values.push_back(value);
+    if (to == text.size()) return values;
+    from = to + 1;
+  }
+}
+
+void require(bool holds, const std::string& option, const std::string& text, const char* expected) {
+  if (!holds) throw InputError(fmt::format("{} {}: expected {}", option, text, expected));
+}
+
+bool all_given(const std::vector<double>& values) {
+  return std::none_of(values.begin(), values.end(), [](double x) { return std::isnan(x); });
+}
+
+std::pair<int, int> read_size(const std::string& text) {
+  constexpr const char* expected = "WIDTHxHEIGHT in pixels, such as 1920x1080";
+  const auto sides = numbers("--size", text, 'x', expected);
+  require(sides.size() == 2 && all_given(sides) && sides[0] == std::floor(sides[0]) &&
+              sides[1] == std::floor(sides[1]) && std::abs(sides[0]) < 1e6 && std::abs(sides[1]) < 1e6,
+          "--size", text, expected);
+  return {static_cast<int>(sides[0]), static_cast<int>(sides[1])};
+}
+
+}  // namespace chute::app

@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace chute::app {
+
+/// The numbers in `text`, divided by `separator`; empty places are NaN. InputError that says what `option`
+/// expects.
+std::vector<double> numbers(const std::string& option, const std::string& text, char separator,
+                            const char* expected);
+
+/// InputError that says what `option` expects, unless it holds.
+void require(bool holds, const std::string& option, const std::string& text, const char* expected);
+
+bool all_given(const std::vector<double>& values);
+
+/// Width and height of `--size WIDTHxHEIGHT`, whole numbers; what is too small or too large is found by whoever draws.
+std::pair<int, int> read_size(const std::string& text);
+
+}  // namespace chute::app
