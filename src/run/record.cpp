@@ -45,6 +45,14 @@ void write_record(const std::filesystem::path& file, const RunRecord& r,
   write_atomically(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+std::string read_record_text(const std::filesystem::path& directory) {
+  const auto text = read_file(directory / "run.json");
+  auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (!json.is_object()) return text;
+  json.erase("files");
+  return json.dump(2) + "\n";
+}
+
 io::FileSums read_file_sums(const std::filesystem::path& directory) {
   const auto file = directory / "run.json";
   try {

@@ -33,6 +33,8 @@ struct RunRecord {
 void write_record(const std::filesystem::path& file, const RunRecord& record,
                   const std::optional<measure::Flow>& flow = {}, std::span<const measure::Flow> starts = {});
 
+/// run.json for people to read: without what each file holds. The text as it is if it is damaged.
+std::string read_record_text(const std::filesystem::path& directory);
 /// The files that the run.json of a folder tells of. InputError if it cannot be read.
 io::FileSums read_file_sums(const std::filesystem::path& directory);
 
