@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "common/no_broken_pipe.hpp"
 
 namespace chute::view {
 namespace {
@@ -127,6 +128,7 @@ class Worker {
   }
   ~Worker() {
     ::close(orders_), ::close(replies_);
+    if (process_ < 0) return;
     ::kill(process_, SIGKILL);  // it has nothing to finish: its files appear whole or not at all
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -136,11 +138,11 @@ class Worker {
 
   void order(std::size_t number, int slot) {
     const Order order{number, slot};
-    write_all(orders_, &order, sizeof order);  // a worker that has died is noticed when it does not reply
+    write_all(orders_, &order, sizeof order);
   }
   Reply reply() {
     Reply reply{};
-    if (!read_all(replies_, &reply, sizeof reply)) throw WorkError("a process that draws has died");
+    if (!read_all(replies_, &reply, sizeof reply)) throw WorkError("a process that draws frames " + end());
     if (reply.answer == Answer::input_error) throw InputError(reply.message);
     if (reply.answer == Answer::work_error) throw WorkError(reply.message);
     return reply;
@@ -152,6 +154,17 @@ class Worker {
   int replies() const { return replies_; }
 
  private:
+  /// How it ended, in words.
+  std::string end() {
+    int status = 0;
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+      return "was ended by force, perhaps for want of memory; fewer --jobs take less";
+    return WIFSIGNALED(status) ? fmt::format("was ended by signal {}", WTERMSIG(status)) : "ended early";
+  }
+
   Shared pixels_;
   pid_t process_ = -1;
   int orders_ = -1, replies_ = -1;
@@ -179,6 +192,7 @@ void draw_here(std::size_t count, bool wanted, const std::function<Draw()>& make
 void draw_all(std::size_t count, int jobs, int width, int height, bool wanted,
               const std::function<Draw()>& make_draw, const Take& take) {
   if (jobs <= 1 || count <= 1 || has_threads()) return draw_here(count, wanted, make_draw, take);
+  const NoBrokenPipe guard;  // a worker that has died is noticed when it does not reply
   const std::size_t picture_bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto crew_size = std::min<std::size_t>(static_cast<std::size_t>(jobs), count);
   // Mesa draws with a thread per processor in every process; shared out, they do not get in each other's way

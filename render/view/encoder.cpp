@@ -13,25 +13,11 @@
 #include <cstring>
 
 #include "common/error.hpp"
+#include "common/no_broken_pipe.hpp"
 
 extern char** environ;
 
 namespace chute::view {
-namespace {
-
-/// A program that stops reading must not end this one: the write then fails, and that is said.
-struct NoBrokenPipeSignal {
-  struct sigaction before {};
-  NoBrokenPipeSignal() {
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &ignore, &before);
-  }
-  ~NoBrokenPipeSignal() { sigaction(SIGPIPE, &before, nullptr); }
-};
-
-}  // namespace
-
 Encoder::Encoder(const std::vector<std::string>& arguments) : name_(arguments.at(0)) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
@@ -48,7 +34,11 @@ Encoder::Encoder(const std::vector<std::string>& arguments) : name_(arguments.at
   posix_spawnattr_t
       own_group;  // an interrupt from the keyboard is for this program, which then ends the other
   posix_spawnattr_init(&own_group);
-  posix_spawnattr_setflags(&own_group, POSIX_SPAWN_SETPGROUP);
+  sigset_t usual;  // what this program ignores is not the other's business
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  posix_spawnattr_setsigdefault(&own_group, &usual);
+  posix_spawnattr_setflags(&own_group, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   pid_t process = -1;
   const int error = ::posix_spawnp(&process, words[0], &actions, &own_group, words.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -82,22 +72,27 @@ int Encoder::wait() {
   return status;
 }
 
-void Encoder::fail() {
-  const int status = process_ > 0 ? wait() : 0;
+std::string Encoder::last_words() const {
   std::string text(4096, '\0');
   const auto size = ::lseek(said_, 0, SEEK_END);
   const auto count = ::pread(said_, text.data(), text.size(), std::max<off_t>(0, size - 4096));
   text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  text = text.substr(text.find_last_of("\r\n") + 1);
-  if (text.empty())
-    text = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
-                               : "it says nothing about why";
+  return text.substr(text.find_last_of("\r\n") + 1);
+}
+
+void Encoder::fail() {
+  const int status = process_ > 0 ? wait() : 0;
+  auto text = last_words();
+  if (WIFSIGNALED(status))
+    text = fmt::format("ended by signal {}{}", WTERMSIG(status),
+                       WTERMSIG(status) == SIGKILL ? ", out of memory?" : "");
+  if (text.empty()) text = "it says nothing about why";
   throw WorkError(fmt::format("{} failed: {}", name_, text));
 }
 
 void Encoder::write(const void* bytes, std::size_t count) {
-  const NoBrokenPipeSignal guard;
+  const NoBrokenPipe guard;
   const char* from = static_cast<const char*>(bytes);
   while (count > 0) {
     const auto written = ::write(input_, from, count);
@@ -109,7 +104,9 @@ void Encoder::write(const void* bytes, std::size_t count) {
 
 void Encoder::finish() {
   const int status = wait();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
+  if (WIFSIGNALED(status)) throw WorkError(fmt::format("{} was ended by signal {}", name_, WTERMSIG(status)));
+  // It may complain, of a full disk for instance, and yet say that all is well.
+  if (WEXITSTATUS(status) != 0 || !last_words().empty()) fail();
 }
 
 }  // namespace chute::view

@@ -16,13 +16,14 @@ class Encoder {
 
   /// WorkError with the last thing that the program said if it has stopped reading.
   void write(const void* bytes, std::size_t count);
-  /// Waits for its end; WorkError if it failed.
+  /// Waits for its end; WorkError if it failed or complained.
   void finish();
 
  private:
   std::string name_;
   int process_ = -1, input_ = -1, said_ = -1;
 
+  std::string last_words() const;
   [[noreturn]] void fail();
   int wait();
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
@@ -55,6 +56,34 @@ Words h264_words(Rgb ground) {
   // clang-format on
 }
 
+/// Top-level boxes of an MP4 file fill it exactly, and the index and the pictures are among them.
+bool is_whole_mp4(std::string_view bytes) {
+  bool has_index = false, has_pictures = false;
+  while (bytes.size() >= 8) {
+    const auto number = [&](std::size_t from, std::size_t digits) {
+      std::uint64_t value = 0;
+      for (std::size_t i = 0; i < digits; ++i)
+        value = value << 8 | static_cast<unsigned char>(bytes[from + i]);
+      return value;
+    };
+    std::uint64_t size = number(0, 4);
+    if (size == 1 && bytes.size() >= 16) size = number(8, 8);
+    if (size < 8 || size > bytes.size()) return false;
+    has_index = has_index || bytes.substr(4, 4) == "moov";
+    has_pictures = has_pictures || bytes.substr(4, 4) == "mdat";
+    bytes.remove_prefix(size);
+  }
+  return bytes.empty() && has_index && has_pictures;
+}
+
+/// Does a file end as its kind does? A program that ran out of disk may not have noticed.
+bool is_whole(Movie::Kind kind, const fs::path& file) {
+  const auto bytes = read_file(file);
+  if (kind == Movie::Kind::h264) return is_whole_mp4(bytes);
+  if (kind == Movie::Kind::gif) return bytes.starts_with("GIF8") && bytes.ends_with('\x3b');
+  return bytes.ends_with(std::string_view("\0\0\0\0IEND\xae\x42\x60\x82", 12));
+}
+
 void over_ground(image::Image& picture, Rgb ground) {
   const double rgb[3] = {255 * ground.r, 255 * ground.g, 255 * ground.b};
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
@@ -70,27 +99,15 @@ void over_ground(image::Image& picture, Rgb ground) {
 }  // namespace
 
 struct Movie::Inside {
-  fs::path path, temporary;
+  Temporary file;
   int width, height;
-  bool transparent;
+  Kind content;  ///< of the file: a GIF's palette is a PNG
   Rgb ground;
   std::unique_ptr<Encoder> encoder;
   image::Image flat;
+  bool transparent = false;
 
-  Inside(fs::path p, fs::path t, int w, int h, bool keeps_alpha, Rgb g, const Words& words)
-      : path(std::move(p)),
-        temporary(std::move(t)),
-        width(w),
-        height(h),
-        transparent(keeps_alpha),
-        ground(g) {
-    encode([&] { encoder = std::make_unique<Encoder>(words); });
-  }
-  ~Inside() {
-    encoder.reset();
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-  }
+  const fs::path& path() const { return file.target(); }
   /// Does it; what goes wrong is said with the movie's own name.
   template <class Work>
   void encode(Work&& work) {
@@ -98,9 +115,9 @@ struct Movie::Inside {
       work();
     } catch (const WorkError& error) {
       std::string what = error.what();
-      const std::string name = "file:" + temporary.string() + ": ";
+      const std::string name = "file:" + file.path().string() + ": ";
       if (const auto at = what.find(name); at != std::string::npos) what.erase(at, name.size());
-      throw WorkError(path.string() + ": " + what);
+      throw WorkError(path().string() + ": " + what);
     }
   }
 };
@@ -118,7 +135,8 @@ Movie::Movie(const fs::path& path, int width, int height, double frames_per_seco
   const auto kind = kind_of(path);
   std::error_code error;
   if (!path.parent_path().empty()) fs::create_directories(path.parent_path(), error);
-  const fs::path temporary = detail::beside(path);
+  remove_leftovers(folder_of(path));
+  Temporary file(path);
   Words words = input_words(width, height, frames_per_second);
   const auto append = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
   if (kind == Kind::h264) append(h264_words(ground));
@@ -129,8 +147,11 @@ Movie::Movie(const fs::path& path, int width, int height, double frames_per_seco
     append({"-i", palette.string(), "-lavfi", "paletteuse=dither=none:diff_mode=rectangle", "-loop", "0",
             "-f", "gif"});
   if (kind == Kind::apng) append({"-c:v", "apng", "-pred", "mixed", "-plays", "0", "-f", "apng"});
-  words.push_back("file:" + temporary.string());
-  inside_ = std::make_unique<Inside>(path, temporary, width, height, kind == Kind::apng, ground, words);
+  words.push_back("file:" + file.path().string());
+  const bool is_palette = kind == Kind::gif && palette.empty();
+  inside_.reset(new Inside{
+      std::move(file), width, height, is_palette ? Kind::apng : kind, ground, {}, {}, kind == Kind::apng});
+  inside_->encode([&] { inside_->encoder = std::make_unique<Encoder>(words); });
 }
 
 Movie::~Movie() = default;
@@ -138,7 +159,7 @@ Movie::~Movie() = default;
 void Movie::add(const image::Image& picture) {
   auto& in = *inside_;
   if (picture.width != in.width || picture.height != in.height)
-    throw WorkError(in.path.string() + ": the pictures of a movie must all have one size");
+    throw WorkError(in.path().string() + ": the pictures of a movie must all have one size");
   if (in.transparent) {
     in.encode([&] { in.encoder->write(picture.rgba.data(), picture.rgba.size()); });
   } else {
@@ -148,21 +169,27 @@ void Movie::add(const image::Image& picture) {
   }
 }
 
+void Movie::finish_hidden() {
+  auto& in = *inside_;
+  in.encode([&] {
+    in.encoder->finish();
+    if (!is_whole(in.content, in.file.path())) throw WorkError("ffmpeg left a file that is not whole");
+  });
+}
+
 void Movie::finish() {
-  inside_->encode([&] { inside_->encoder->finish(); });
-  detail::move_into_place(inside_->temporary, inside_->path);
+  finish_hidden();
+  inside_->file.flush();
+  inside_->file.move_into_place();
+  flush_folder(folder_of(inside_->path()));
 }
 
-PalettePicker::PalettePicker(const fs::path& beside, int width, int height, Rgb ground)
-    : file_(detail::beside(beside.parent_path() / (beside.stem().string() + "-palette.gif"))),
-      maker_(std::make_unique<Movie>(file_, width, height, 1, ground)) {}
+const fs::path& Movie::hidden_file() const { return inside_->file.path(); }
 
-PalettePicker::~PalettePicker() {
-  std::error_code ignored;
-  std::filesystem::remove(file_, ignored);
-}
+PalettePicker::PalettePicker(const fs::path& gif, int width, int height, Rgb ground)
+    : maker_(std::make_unique<Movie>(gif, width, height, 1, ground)) {}
 
 void PalettePicker::add(const image::Image& picture) { maker_->add(picture); }
-void PalettePicker::finish() { maker_->finish(); }
+void PalettePicker::finish() { maker_->finish_hidden(); }
 
 }  // namespace chute::view

@@ -21,9 +21,13 @@ class Movie {
         const std::filesystem::path& palette = {});
   ~Movie();
 
-  /// WorkError with what ffmpeg says if it has given up.
+  /// WorkError with what ffmpeg says if it has given up or complained, or if the file is not whole.
   void add(const image::Image& picture);
   void finish();
+
+  /// The end of a film that stays a hidden file, which goes with this object.
+  void finish_hidden();
+  const std::filesystem::path& hidden_file() const;
 
  private:
   struct Inside;
@@ -33,15 +37,13 @@ class Movie {
 /// Chooses the 256 colours of a GIF from some of its pictures; keeps them in a file while it lives.
 class PalettePicker {
  public:
-  /// `beside` is where the GIF will be.
-  PalettePicker(const std::filesystem::path& beside, int width, int height, Rgb ground);
-  ~PalettePicker();
+  /// `gif` is where the film will be.
+  PalettePicker(const std::filesystem::path& gif, int width, int height, Rgb ground);
   void add(const image::Image& picture);
   void finish();
-  const std::filesystem::path& file() const { return file_; }
+  const std::filesystem::path& file() const { return maker_->hidden_file(); }
 
  private:
-  std::filesystem::path file_;
   std::unique_ptr<Movie> maker_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "image/png.hpp"
 #include "plot/draw.hpp"
@@ -179,6 +180,7 @@ RenderReport render_cells(const RenderJob& job, const std::vector<read::FrameFil
     std::error_code error;
     fs::create_directories(job.output, error);
     if (error) throw WorkError(fmt::format("{}: cannot be made: {}", job.output.string(), error.message()));
+    remove_leftovers(job.output);
   }
   RenderReport report;
   for (const auto number : numbers) {

@@ -4,14 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
 #include <deque>
 #include <memory>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "common/hash.hpp"
 #include "image/png.hpp"
 #include "read/run_frames.hpp"
 #include "read/surroundings.hpp"
@@ -25,31 +24,14 @@ namespace fs = std::filesystem;
 namespace {
 
 // Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
-constexpr int drawing_version = 3;
+constexpr int drawing_version = 4;
 constexpr const char* drawn_from = "Drawn-From";
 
-/// Over texts and files: tells whether a picture is drawn from the same. FNV-1a's mixing, eight bytes at a time,
-/// with the high half folded back so that all bits of a word matter to all of the result.
-class Hash {
- public:
-  void add(std::string_view bytes) {
-    mix(bytes.size());
-    for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(8, bytes.size()))) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data(), std::min<std::size_t>(8, bytes.size()));
-      mix(word);
-    }
-  }
-  std::string text() const { return fmt::format("{:016x}", value_); }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-
-  void mix(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x100000001b3u;
-    value_ ^= value_ >> 32;
-  }
-};
+/// Adds a part such that where it ends matters.
+void add_part(Hash& hash, std::string_view part) {
+  hash.add(fmt::format("{} ", part.size()));
+  hash.add(part);
+}
 
 bool is_drawn(const fs::path& picture, const std::string& hash) {
   std::error_code error;
@@ -73,7 +55,7 @@ struct Beside {
     Hash found;
     const auto take = [&](const char* name) {
       const auto path = read::find_beside(frames.front(), name);
-      if (!path.empty()) found.add(read_file(path));
+      if (!path.empty()) add_part(found, read_file(path));
       return path;
     };
     if (const auto path = take("walls.vtp"); !path.empty()) walls = read::read_walls(path);
@@ -83,7 +65,7 @@ struct Beside {
         throw InputError(job.source.string() + ": the run kept no impacts.vtp, which marks of impacts need");
       impacts = read::read_impacts(path);
     }
-    hash = found.text();
+    hash = found.hex();
   }
   /// How many impacts there were until then.
   std::size_t until(double time) const {
@@ -108,14 +90,16 @@ class FrameDrawer {
   FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey,
               const Beside& beside)
       : job_(job), frames_(frames), survey_(survey), beside_(beside), wanted_(wanted_arrays(job.style)) {
-    common_.add(beside.hash);
-    common_.add(fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(),
-                            survey.describe(), job.radius.value_or(0)));
+    Hash common;
+    add_part(common, beside.hash);
+    add_part(common, fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(),
+                                 survey.describe(), job.radius.value_or(0)));
     const auto add = [&](const std::vector<double>& values) {
-      common_.add({reinterpret_cast<const char*>(values.data()), sizeof(double) * values.size()});
+      add_part(common, {reinterpret_cast<const char*>(values.data()), sizeof(double) * values.size()});
     };
     if (!survey.series.empty()) add(survey.series.times);
-    for (const auto& column : survey.series.columns) common_.add(column.name), add(column.values);
+    for (const auto& column : survey.series.columns) add_part(common, column.name), add(column.values);
+    common_ = common.hex();
   }
 
   /// True if frame `number` had to be drawn.
@@ -129,16 +113,19 @@ class FrameDrawer {
 
     const fs::path picture =
         job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
-    Hash hash = common_;
-    hash.add(fmt::format("{}", survey_.times[number]));
-    for (const auto& part : files) hash.add(part.bytes);
-    hash.add(network);
-    for (std::size_t i = oldest; i < number; ++i) hash.add(earlier_[i - first_earlier_].hash);
+    Hash hash;
+    add_part(hash, common_);
+    add_part(hash, fmt::format("{}", survey_.times[number]));
+    for (const auto& part : files) add_part(hash, part.bytes);
+    add_part(hash, network);
+    for (std::size_t i = oldest; i < number; ++i) add_part(hash, earlier_[i - first_earlier_].hash);
     const std::size_t impacts = beside_.until(survey_.times[number]);
-    hash.add(fmt::format("impacts {}", impacts));
+    add_part(hash, fmt::format("impacts {}", impacts));
     if (!survey_.path.empty())
-      hash.add(fmt::format("{}", fmt::join(survey_.path[number].begin(), survey_.path[number].end(), " ")));
-    if (!picture.empty() && is_drawn(picture, hash.text())) {
+      add_part(hash,
+               fmt::format("{}", fmt::join(survey_.path[number].begin(), survey_.path[number].end(), " ")));
+    const auto drawn_hash = hash.hex();
+    if (!picture.empty() && is_drawn(picture, drawn_hash)) {
       if (wanted) into = image::read_png(picture);
       return false;
     }
@@ -157,10 +144,11 @@ class FrameDrawer {
     data.impacts = std::span(beside_.impacts).first(impacts);
     if (!survey_.path.empty()) data.focus = survey_.path[number];
     const auto& drawn = renderer_->draw(data);
-    if (!picture.empty())
-      image::write_png(
-          picture, drawn,
-          {{"Software", "chute"}, {"Source", file.path.filename().string()}, {drawn_from, hash.text()}});
+    if (!picture.empty()) {
+      const image::Text text{
+          {"Software", "chute"}, {"Source", file.path.filename().string()}, {drawn_from, drawn_hash}};
+      write_atomically(picture, image::encode_png(drawn, text), Flush::later);
+    }
     if (wanted) into = drawn;
     return true;
   }
@@ -175,7 +163,7 @@ class FrameDrawer {
   const Survey& survey_;
   const Beside& beside_;
   std::vector<std::string> wanted_;
-  Hash common_;
+  std::string common_;  ///< hash of what all frames have in common
   std::unique_ptr<FrameRenderer> renderer_;
   std::deque<Earlier> earlier_;  ///< frames first_earlier_, first_earlier_ + 1 …: trails share most of them
   std::size_t first_earlier_ = 0;
@@ -187,9 +175,9 @@ class FrameDrawer {
     if (i < first_earlier_ + earlier_.size()) return;
     auto files = read::read_files(frames_[i]);
     Hash hash;
-    for (const auto& part : files) hash.add(part.bytes);
+    for (const auto& part : files) add_part(hash, part.bytes);
     earlier_.push_back(
-        {read::parse_frame(std::move(files), job_.radius, {std::string(fields::id.name)}), hash.text()});
+        {read::parse_frame(std::move(files), job_.radius, {std::string(fields::id.name)}), hash.hex()});
     while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64)
       earlier_.pop_front(), ++first_earlier_;
   }
@@ -270,7 +258,14 @@ RenderReport render_run(const RenderJob& job) {
     std::error_code error;
     fs::create_directories(job.output, error);
     if (error) throw WorkError(fmt::format("{}: cannot be made: {}", job.output.string(), error.message()));
+    remove_leftovers(job.output);
   }
+  // Pictures are flushed to the disk at the end, all at once: one that a power cut spoilt would be drawn again.
+  const auto flush = [&] {
+    if (job.output.empty()) return;
+    for (const auto number : numbers) flush_file(job.output / fmt::format("{:06}.png", number));
+    flush_folder(job.output);
+  };
 
   RenderReport report;
   report.left_out = found.left_out;
@@ -292,6 +287,7 @@ RenderReport render_run(const RenderJob& job) {
   };
   if (job.movie.empty()) {
     draw(numbers, false, [&](std::size_t i, bool drawn, const image::Image&) { count(i, drawn); });
+    flush();
     return report;
   }
 
@@ -320,6 +316,7 @@ RenderReport render_run(const RenderJob& job) {
       ++report.skipped;
     count(i, drawn);
   });
+  flush();
   movie.finish();
   return report;
 }

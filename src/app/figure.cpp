@@ -163,6 +163,7 @@ void make_figure(const fs::path& file, const fs::path& directory, const figures:
   const auto figure = plot::figure_from(recipe.plot, read::parse_table(text, beside(".csv")));
   const auto list = plot::lay_out(figure).list;
   fs::create_directories(directory);
+  remove_leftovers(directory);
   if (!is_source) write_atomically(beside(".csv"), text);
   const plot::Metadata metadata{
       {"Title", recipe.title},

@@ -5,8 +5,11 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <string_view>
+#include <system_error>
 
 #include "app/manual.hpp"
+#include "app/say.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
@@ -24,8 +27,8 @@ namespace {
 /// Exit status of the program, see README: 0 done, 1 the work failed, 2 the command or a given file is wrong.
 enum Status { done = 0, failed = 1, wrong = 2 };
 
-int say(Status status, const char* what) {
-  fmt::print(stderr, "chute: {}\n", what);
+int end(Status status, std::string_view what) {
+  chute::app::tell("chute: {}\n", what);
   return status;
 }
 
@@ -44,6 +47,9 @@ void check_verb(CLI::App& app, const std::string& word) {
 
 int main(int argc, char** argv) {
   using namespace chute;
+  app::keep_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, as a full disk is
+  std::signal(SIGPIPE, SIG_IGN);  // a process that stops reading, too
   CLI::App app{"chute simulates grains on a rough incline and draws what they do, without a screen."};
   app.name("chute");
   app.set_version_flag("--version", fmt::format("chute {} ({})", run::version, run::commit));
@@ -61,23 +67,28 @@ int main(int argc, char** argv) {
   app::add_theory(app);
   app::add_manual(app);
 
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, as a full disk is
-
   try {
     if (argc > 1) check_verb(app, argv[1]);
-    app.parse(argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+      app.exit(asked);
+    }
+    app::finish_output();
     return done;
-  } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return say(wrong, error.what());
+    return end(wrong, error.what());
   } catch (const InputError& error) {
-    return say(wrong, error.what());
+    return end(wrong, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    return say(failed, error.what());
+    return end(failed, error.what());
+  } catch (const std::system_error& error) {  // fmt's, of standard output
+    return end(failed, std::ferror(stdout)
+                           ? fmt::format("standard output: cannot write: {}", error.code().message())
+                           : error.what());
   } catch (const std::bad_alloc&) {
-    return say(failed, "out of memory");
+    return end(failed, "out of memory");
   } catch (const std::exception& error) {
-    return say(failed, error.what());
+    return end(failed, error.what());
   }
 }

@@ -4,7 +4,8 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
+
+#include "app/say.hpp"
 
 namespace chute::app {
 
@@ -19,7 +20,7 @@ Progress::Progress(std::string what, bool quiet)
     : what_(std::move(what)), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-  if (written_ && terminal_) std::fputc('\n', stderr);
+  if (written_ && terminal_) say("\n");
 }
 
 void Progress::show(double part, const std::string& rate) {
@@ -35,10 +36,9 @@ void Progress::show(double part, const std::string& rate) {
   const auto left = gone > 0 && part < 1 ? duration_text(seconds * (1 - part) / gone) + " left" : "";
   const auto line = fmt::format("{}: {:3.0f} %  {}  {}", what_, 100 * part, rate, left);
   if (terminal_)
-    fmt::print(stderr, "\r\x1b[K{}", line);
+    tell("\r\x1b[K{}", line);
   else
-    fmt::print(stderr, "{}\n", line);
-  std::fflush(stderr);
+    tell("{}\n", line);
 }
 
 }  // namespace chute::app

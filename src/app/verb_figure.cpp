@@ -6,6 +6,7 @@
 #include "app/figure.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/say.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 
@@ -45,8 +46,7 @@ void run(const FigureArguments& arguments) {
       progress.show(part);
       return !interrupted();
     });
-    if (!arguments.quiet)
-      fmt::print(stderr, "{}: {}/{}.png, .pdf, .svg, .csv\n", id, arguments.directory, id);
+    if (!arguments.quiet) tell("{}: {}/{}.png, .pdf, .svg, .csv\n", id, arguments.directory, id);
   }
 }
 

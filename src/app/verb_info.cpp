@@ -11,9 +11,11 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "io/checkpoint_file.hpp"
 #include "read/table.hpp"
 #include "read/vtk_points.hpp"
 #include "run/flow.hpp"
+#include "run/record.hpp"
 
 namespace chute::app {
 namespace {
@@ -92,7 +94,7 @@ void show_flow(const fs::path& path) {
 
 void show_run(const fs::path& path) {
   if (!fs::exists(path / "run.json")) throw InputError(path.string() + ": not a run directory (no run.json)");
-  fmt::print("{}", read_file(path / "run.json"));
+  fmt::print("{}", run::read_record_text(path));
   show_flow(path);
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(path)) {
@@ -106,6 +108,27 @@ void show_run(const fs::path& path) {
   }
   std::sort(files.begin(), files.end());
   for (const auto& file : files) fmt::print("{}\n", file);
+}
+
+/// Whether every file of a run holds what the run wrote into it.
+void verify(const fs::path& path) {
+  if (!fs::exists(path / "run.json")) throw InputError(path.string() + ": not a run directory (no run.json)");
+  const auto sums = run::read_file_sums(path);
+  auto wrong = io::differences(path, sums);
+  std::size_t count = sums.size();
+  if (const auto checkpoint = path / "checkpoint"; fs::exists(checkpoint)) {
+    ++count;
+    try {
+      io::check_checkpoint(checkpoint);
+    } catch (const InputError& error) {
+      wrong.push_back(error.what());
+    }
+  }
+  for (const auto& line : wrong) fmt::print("{}\n", line);
+  if (!wrong.empty())
+    throw WorkError(
+        fmt::format("{}: {} of {} files are not as the run wrote them", path.string(), wrong.size(), count));
+  fmt::print("{}: {} files are as the run wrote them\n", path.string(), count);
 }
 
 void info(const fs::path& path) {
@@ -124,10 +147,18 @@ void info(const fs::path& path) {
 
 void add_info(CLI::App& app) {
   auto* verb = app.add_subcommand("info", "Tell what a run, a VTK file or a table holds");
-  auto path = std::make_shared<std::string>();
-  verb->add_option("path", *path, "run directory, VTK file or CSV table")->required();
-  verb->footer("Example: chute info out/demo/impacts.vtp");
-  verb->callback([path] { info(*path); });
+  struct Arguments {
+    std::string path;
+    bool verify = false;
+  };
+  auto a = std::make_shared<Arguments>();
+  verb->add_option("path", a->path, "run directory, VTK file or CSV table")->required();
+  verb->add_flag("--verify", a->verify, "compare every file of a run with the checksums in its run.json");
+  verb->footer(
+      "Exit status with --verify: 0 all files are whole, 1 some are not.\n"
+      "Example: chute info out/demo/impacts.vtp\n"
+      "         chute info --verify out/demo");
+  verb->callback([a] { a->verify ? verify(a->path) : info(a->path); });
 }
 
 }  // namespace chute::app

@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/numbers.hpp"
 #include "app/progress.hpp"
+#include "app/say.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
@@ -149,15 +150,14 @@ void render(const RenderArguments& a) {
   const auto report = view::render_run(job);
   if (a.quiet) return;
   if (report.left_out > 0)
-    fmt::print(stderr, "render: left out {} grain{} (of all frames) without a place or a radius > 0\n",
-               report.left_out, report.left_out == 1 ? "" : "s");
+    tell("render: left out {} grain{} (of all frames) without a place or a radius > 0\n", report.left_out,
+         report.left_out == 1 ? "" : "s");
   if (report.skipped > 0)
-    fmt::print(stderr, "render: the movie leaves out {} frames: a GIF shows 50 a second at most\n",
-               report.skipped);
+    tell("render: the movie leaves out {} frames: a GIF shows 50 a second at most\n", report.skipped);
   const auto kept = report.kept ? fmt::format(", {} were there", report.kept) : "";
   const auto where = job.output.empty() ? job.movie : job.output;
-  fmt::print(stderr, "render: {} frame{} drawn{}; in {}\n", report.drawn, report.drawn == 1 ? "" : "s", kept,
-             where.string());
+  tell("render: {} frame{} drawn{}; in {}\n", report.drawn, report.drawn == 1 ? "" : "s", kept,
+       where.string());
 }
 
 }  // namespace

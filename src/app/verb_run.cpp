@@ -4,6 +4,7 @@
 
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/say.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "experiments/perform.hpp"
@@ -28,7 +29,7 @@ void experiment(const RunArguments& arguments, const run::RunOptions& options) {
   for (const auto& result : outcome.results)
     fmt::print("{:<14} {:<22} {}\n", result.name, fmt::format("{:.6g} {}", result.value, result.unit),
                result.meaning);
-  fmt::print(stderr, "run: {} steps; files in {}\n", outcome.steps, options.directory.string());
+  tell("run: {} steps; files in {}\n", outcome.steps, options.directory.string());
 }
 
 void run(const RunArguments& arguments) {
@@ -45,12 +46,13 @@ void run(const RunArguments& arguments) {
   if (experiments::is_experiment(arguments.scene)) return experiment(arguments, options);
   const auto scene = scene::read_scene(arguments.scene, arguments.settings);
   if (!arguments.quiet)
-    for (const auto& warning : run::warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
+    for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);
   Progress progress("run", arguments.quiet);
   options.progress = [&](double part) {
     progress.show(part);
     return !interrupted();
   };
+  options.warn = [](const std::string& what) { tell("warning: {}\n", what); };
   // An interrupted run leaves a checkpoint, so that --resume goes on from there.
   watch_for_interrupt();
   const auto result = run::run_scene(scene, options);
@@ -58,10 +60,10 @@ void run(const RunArguments& arguments) {
     throw WorkError(fmt::format("stopped; go on with: chute run {} -o {} --resume", arguments.scene,
                                 options.directory.string()));
   if (!arguments.quiet)
-    fmt::print(stderr, "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n",
-               result.steps, duration_text(result.seconds),
-               static_cast<double>(result.steps) * static_cast<double>(result.grains) / result.seconds / 1e6,
-               options.directory.string());
+    tell("run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n", result.steps,
+         duration_text(result.seconds),
+         static_cast<double>(result.steps) * static_cast<double>(result.grains) / result.seconds / 1e6,
+         options.directory.string());
 }
 
 }  // namespace

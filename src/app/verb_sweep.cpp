@@ -4,6 +4,7 @@
 
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/say.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "sweep/sweep.hpp"
@@ -45,10 +46,9 @@ void run(const SweepArguments& arguments) {
   const bool whole = sweep::run_sweep(base, options);
   if (arguments.quiet) return;
   if (whole)
-    fmt::print(stderr, "sweep: tables in {}\n", arguments.directory);
+    tell("sweep: tables in {}\n", arguments.directory);
   else
-    fmt::print(stderr, "sweep: shard {} of {} done; the tables follow when all are\n", options.shard,
-               options.shards);
+    tell("sweep: shard {} of {} done; the tables follow when all are\n", options.shard, options.shards);
 }
 
 }  // namespace

@@ -6,12 +6,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "io/csv.hpp"
 #include "measure/outputs.hpp"
 #include "run/record.hpp"
+#include "run/run_directory.hpp"
 #include "run/version.hpp"
 
 namespace chute::experiments {
@@ -38,8 +38,8 @@ std::string units_text(const Experiment& e) {
 class Recorder {
  public:
   using Row = std::function<std::vector<double>(const Engine2&)>;
-  Recorder(const Experiment& e, const std::filesystem::path& directory, std::vector<std::string> columns,
-           Row row, Outcome& into)
+  Recorder(const Experiment& e, const Recording& record, std::vector<std::string> columns, Row row,
+           Outcome& into)
       : row_(std::move(row)),
         into_(into),
         run_(std::make_shared<measure::RunContext>()),
@@ -48,7 +48,7 @@ class Recorder {
     into_.columns.insert(into_.columns.begin(), "time");
     run_->facts.units = units_text(e);
     run_->time_step = e.step();
-    run_->directory = directory;
+    run_->files = record;
     measure::FramesOutput frames;
     frames.frames = e.frames;
     if (!e.frames) return;
@@ -106,7 +106,7 @@ Outcome impact(const Experiment& e, const Recording& record) {
   const UnitsOf in(e.units);
   if (record)
     set_up.watch =
-        Recorder(e, *record, {"overlap", "F_n", "F_s", "v_n", "v_s", "omega_i", "omega_j"}, pair_row, made);
+        Recorder(e, record, {"overlap", "F_n", "F_s", "v_n", "v_s", "omega_i", "omega_j"}, pair_row, made);
   const auto done = collide(set_up);
   const auto law = laws::normal_impact(set_up.laws, set_up.approach(), set_up.pair());
   const auto add = [&](const char* name, double value, const std::string& unit, const char* meaning) {
@@ -154,7 +154,7 @@ Outcome column(const Experiment& e, const Recording& record) {
     const auto n = static_cast<double>(N);
     return {static_cast<double>(engine.contacts().size()), momentum / n, energy / n};
   };
-  if (record) set_up.watch = Recorder(e, *record, {"contacts", "momentum", "energy"}, mean, made);
+  if (record) set_up.watch = Recorder(e, record, {"contacts", "momentum", "energy"}, mean, made);
   const auto done = hit_wall(set_up);
   const auto pair = laws::normal_impact(set_up.laws, e.velocity, e.pair());
   made.results = {
@@ -184,7 +184,7 @@ Outcome brake_failure(const Experiment& e, const Recording& record) {
             static_cast<double>(contacts.size())};
   };
   if (record)
-    set_up.watch = Recorder(e, *record, {"x", "y", "v_x", "v_y", "omega", "overlap", "contacts"}, row, made);
+    set_up.watch = Recorder(e, record, {"x", "y", "v_x", "v_y", "omega", "overlap", "contacts"}, row, made);
   const auto done = skim(set_up);
   const double t_n = laws::normal_impact(set_up.laws, set_up.approach(), set_up.pair()).contact_time;
   made.results = {
@@ -232,17 +232,17 @@ Outcome pushed_cylinder(const Experiment& e, const Recording& record) {
   return made;
 }
 
-void write_files(const Experiment& e, const Outcome& outcome, const run::RunDirectory& directory) {
+void write_files(const Experiment& e, const Outcome& outcome, io::RunFiles& files) {
   const auto comment =
       fmt::format("{}; units: {}; chute {} ({})", e.title, units_text(e), run::version, run::commit);
   io::Csv series({"what happened, per time since the surfaces met", comment},
                  {outcome.columns.begin(), outcome.columns.end()});
   for (const auto& row : outcome.series) series.row(std::vector<io::Csv::Cell>(row.begin(), row.end()));
-  write_atomically(directory.file("series.csv"), series.text());
+  files.write("series.csv", series.text());
   io::Csv result({"what the experiment gave; meanings: chute run prints them", comment},
                  {"name", "unit", "value"});
   for (const auto& r : outcome.results) result.row({r.name, r.unit}, {r.value});
-  write_atomically(directory.file("result.csv"), result.text());
+  files.write("result.csv", result.text());
 }
 
 }  // namespace
@@ -269,20 +269,30 @@ Outcome perform(const Experiment& e, const Recording& record) {
 }
 
 Outcome run_experiment(const Experiment& e, const run::RunOptions& options) {
-  const run::RunDirectory directory(options.directory, options.existing);
   run::RunRecord record;
   record.command = options.command_line;
-  const auto begin = std::chrono::steady_clock::now();
-  Outcome outcome = perform(e, options.directory);
-  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  record.steps = outcome.steps;
   record.time_step = e.step();
-  record.time = outcome.time;
-  record.end = "finished";
-  write_atomically(directory.file("scene.toml"), to_toml(e));
-  write_files(e, outcome, directory);
-  run::write_record(directory.file("run.json"), record);
-  return outcome;
+  const auto begin = std::chrono::steady_clock::now();
+  run::RunDirectory directory(options.directory, options.existing);
+  directory.claim(record);
+  try {
+    const auto files = std::make_shared<io::RunFiles>(directory.path());
+    Outcome outcome = perform(e, files);
+    files->write("scene.toml", to_toml(e));
+    write_files(e, outcome, *files);
+    files->commit();
+    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    record.steps = outcome.steps;
+    record.time = outcome.time;
+    record.end = "finished";
+    record.files = files->sums();
+    run::write_record(directory.file("run.json"), record);
+    directory.finish();
+    return outcome;
+  } catch (...) {
+    directory.put_back();
+    throw;
+  }
 }
 
 }  // namespace chute::experiments

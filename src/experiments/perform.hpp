@@ -18,9 +18,9 @@ struct Outcome {
 };
 
 /// Where an experiment is recorded, if it is.
-using Recording = std::optional<std::filesystem::path>;
+using Recording = std::shared_ptr<io::RunFiles>;
 
-/// Does the experiment. WorkError if grains do not part. With a folder the series is kept, and frames, if asked for, are
+/// Does the experiment. WorkError if grains do not part. With files the series is kept, and frames, if asked for, are
 /// written there.
 Outcome perform(const Experiment& experiment, const Recording& record = {});
 

@@ -50,7 +50,7 @@ Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::
       const auto [at, is_new] = known.try_emplace(text, plan.jobs.size());
       if (is_new) {
         plan.jobs.push_back({std::move(scene), work / fmt::format("{}-{}", scene_file.stem().string(),
-                                                                  hash_of(text).substr(0, 16))});
+                                                                  hash_of(text).substr(0, 32))});
       }
       needed.push_back(at->second);
     }

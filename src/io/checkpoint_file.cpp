@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
+#include <ostream>
 #include <streambuf>
 
 #include "common/atomic_file.hpp"
@@ -15,20 +13,30 @@
 namespace chute::io {
 namespace {
 
-constexpr std::string_view magic = "chute checkpoint 5\n";
+constexpr std::string_view magic = "chute checkpoint 6\n";
 constexpr std::size_t digits = 16;   // of a length, in hexadecimal
 constexpr std::size_t trailer = 64;  // the hash, in hexadecimal
 
-/// Passes bytes on to a file and hashes them.
+/// Passes bytes on to a file and hashes them. What goes wrong is thrown through the stream, which must ask for that.
 class Hashing : public std::streambuf {
  public:
-  explicit Hashing(std::filebuf& file) : file_(file) {}
-  std::string hash() { return hash_.hex(); }
+  explicit Hashing(Temporary& file) : file_(file) { waiting_.reserve(most); }
+  /// The hash of everything, which is in the file by then.
+  std::string finish() {
+    pass_on();
+    return hash_.hex();
+  }
 
  protected:
   std::streamsize xsputn(const char* bytes, std::streamsize count) override {
-    hash_.add({bytes, static_cast<std::size_t>(count)});
-    return file_.sputn(bytes, count);
+    const std::string_view given(bytes, static_cast<std::size_t>(count));
+    hash_.add(given);
+    if (waiting_.size() + given.size() > most) pass_on();
+    if (given.size() > most)
+      file_.write(given);
+    else
+      waiting_.append(given);
+    return count;
   }
   int_type overflow(int_type byte) override {
     const char c = traits_type::to_char_type(byte);
@@ -36,8 +44,15 @@ class Hashing : public std::streambuf {
   }
 
  private:
-  std::filebuf& file_;
+  static constexpr std::size_t most = 1 << 20;  // bytes that are written at once
+  Temporary& file_;
   Hash hash_;
+  std::string waiting_;
+
+  void pass_on() {
+    file_.write(waiting_);
+    waiting_.clear();
+  }
 };
 
 std::string block(const std::string& bytes) { return fmt::format("{:016x}{}", bytes.size(), bytes); }
@@ -59,7 +74,7 @@ std::string_view take_block(std::string_view& rest, const Fail& fail) {
 /// A checkpoint taken apart; the parts point into the content.
 struct Parts {
   std::string content;
-  std::string_view scene, grains, state;
+  std::string_view program, scene, grains, state;
 
   explicit Parts(const std::filesystem::path& path) : content(read_file(path)) {
     const auto fail = [&](std::string_view what) {
@@ -71,6 +86,7 @@ struct Parts {
     if (hash_of(rest) != std::string_view(content).substr(rest.size()))
       fail("truncated or damaged: its checksum does not match");
     rest.remove_prefix(magic.size());
+    program = take_block(rest, fail);
     scene = take_block(rest, fail);
     grains = take_block(rest, fail);
     state = rest;
@@ -79,29 +95,33 @@ struct Parts {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& path, const std::string& scene, const std::string& grains,
-                      const std::function<void(std::ostream&)>& save) {
-  replace_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::filebuf file;
-    bool good = file.open(temporary, std::ios::out | std::ios::binary | std::ios::trunc) != nullptr;
-    if (good) {
-      Hashing hashing(file);
-      std::ostream out(&hashing);
-      out << magic << block(scene) << block(grains);
-      save(out);
-      const auto hash = hashing.hash();
-      good = out.good() && file.sputn(hash.data(), trailer) == trailer;
-      good = file.close() != nullptr && good;
-    }
-    if (!good) throw WorkError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
-  });
+Temporary made_checkpoint(const std::filesystem::path& path, const CheckpointHead& head,
+                          const std::string& grains, const std::function<void(std::ostream&)>& save) {
+  Temporary file(path);
+  Hashing hashing(file);
+  std::ostream out(&hashing);
+  out.exceptions(std::ios::badbit);  // a full disk is thrown on as it is
+  out << magic << block(head.program) << block(head.scene) << block(grains);
+  save(out);
+  file.write(hashing.finish());
+  return file;
 }
 
-std::string read_checkpoint(const std::filesystem::path& path, const std::string& scene) {
+void write_checkpoint(const std::filesystem::path& path, const CheckpointHead& head,
+                      const std::string& grains, const std::function<void(std::ostream&)>& save) {
+  auto file = made_checkpoint(path, head, grains, save);
+  file.flush();
+  file.move_into_place();
+  flush_folder(folder_of(path));
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& scene) {
   const Parts parts(path);
   if (parts.scene != scene) throw InputError(path.string() + ": belongs to another scene");
-  return std::string(parts.state);
+  return {std::string(parts.program), std::string(parts.state)};
 }
+
+void check_checkpoint(const std::filesystem::path& path) { const Parts parts(path); }
 
 std::string read_checkpoint_grains(const std::filesystem::path& path) {
   return std::string(Parts(path).grains);

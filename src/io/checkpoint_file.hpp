@@ -4,16 +4,34 @@
 #include <iosfwd>
 #include <string>
 
+namespace chute {
+class Temporary;
+}
 namespace chute::io {
 
-/// A checkpoint: a magic word, the scene it belongs to, its grains as a VTK file has them (so that other scenes and
-/// methods can start from them), the state of engine and observers, and at the end a hash of all that. `save` writes the
-/// state straight into the file, so that large runs need no second copy in memory.
-void write_checkpoint(const std::filesystem::path& path, const std::string& scene, const std::string& grains,
-                      const std::function<void(std::ostream&)>& save);
+/// What a checkpoint says of itself.
+struct CheckpointHead {
+  std::string scene;    ///< the complete one it belongs to
+  std::string program;  ///< that wrote it: name, version, build
+};
 
-/// The state. InputError if the file is missing, truncated, damaged, or belongs to another scene.
-std::string read_checkpoint(const std::filesystem::path& path, const std::string& scene);
+/// A checkpoint: a magic word, its head, its grains as a VTK file has them (so that other scenes and methods can start from
+/// them), the state of engine and observers, and at the end a hash of all that. `save` writes the state straight into the
+/// file, so that large runs need no second copy in memory. WorkError that names the file if it cannot be written.
+void write_checkpoint(const std::filesystem::path& path, const CheckpointHead& head,
+                      const std::string& grains, const std::function<void(std::ostream&)>& save);
+/// The same, written but not yet in its place.
+Temporary made_checkpoint(const std::filesystem::path& path, const CheckpointHead& head,
+                          const std::string& grains, const std::function<void(std::ostream&)>& save);
+
+struct Checkpoint {
+  std::string program;  ///< that wrote it
+  std::string state;
+};
+/// InputError if the file is missing, truncated, damaged, or belongs to another scene.
+Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& scene);
+/// InputError if the file is missing, truncated or damaged.
+void check_checkpoint(const std::filesystem::path& path);
 /// The grains, as bytes of a VTK file, whatever the scene.
 std::string read_checkpoint_grains(const std::filesystem::path& path);
 

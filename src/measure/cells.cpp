@@ -179,8 +179,9 @@ class Cells final : public Remembering<Cells> {
     // Counted here, because a first file at the start has fewer looks behind it than the others.
     ++sampled_;
     if (file < 0) return;
-    run_.write(name(times_.size()),
-               io::cells_vti(grid_.fields(look.engine.time(), static_cast<double>(sampled_)), run_.facts));
+    run_.write_once(
+        name(times_.size()),
+        io::cells_vti(grid_.fields(look.engine.time(), static_cast<double>(sampled_)), run_.facts));
     times_.push_back(look.engine.time());
     sampled_ = 0;
     grid_.clear();

@@ -26,11 +26,11 @@ class Frames final : public Remembering<Frames> {
     if (k < 0) return;
     const GrainsView grains = look.engine.grains();
     const auto facts = facts_at(look.engine.time());
-    run_.write(name("frames", k), io::grains_vtp(grains, facts));
+    run_.write_once(name("frames", k), io::grains_vtp(grains, facts));
     if (with_contacts_) {
       auto contacts = contacts_.take(look).value_or(std::vector<Contact>{});
       if (run_.offers.collisions) contacts = joined_by_pair(contacts);
-      run_.write(name("contacts", k), io::contacts_vtp(grains, contacts, facts));
+      run_.write_once(name("contacts", k), io::contacts_vtp(grains, contacts, facts));
     }
     times_.push_back(look.engine.time());
   }

@@ -1,7 +1,5 @@
 #include "measure/observer.hpp"
 
-#include "common/atomic_file.hpp"
-
 namespace chute::measure {
 
 std::vector<std::string> RunContext::comments(std::string what) const {
@@ -9,10 +7,10 @@ std::vector<std::string> RunContext::comments(std::string what) const {
 }
 
 void RunContext::write(const std::string& name, const std::string& bytes) const {
-  if (directory.empty()) return;
-  const auto file = directory / name;
-  std::filesystem::create_directories(file.parent_path());
-  write_atomically(file, bytes);
+  if (files) files->write(name, bytes);
+}
+void RunContext::write_once(const std::string& name, const std::string& bytes) const {
+  if (files) files->write_once(name, bytes);
 }
 
 }  // namespace chute::measure

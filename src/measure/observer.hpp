@@ -18,6 +18,7 @@
 #include "core/frame.hpp"
 #include "core/offers.hpp"
 #include "io/csv.hpp"
+#include "io/run_files.hpp"
 #include "io/vtk_files.hpp"
 #include "measure/blocks.hpp"
 #include "measure/layer_sums.hpp"
@@ -38,8 +39,8 @@ struct RunContext {
   std::optional<Tilt> tilt{};  ///< of an incline that is tilted meanwhile
   bool independent = false;    ///< grains do not feel each other: each is a run of its own
   double time_step = 0, duration = 0;
-  double contact_time = 0;          ///< t_n of the contact that the scene is about
-  std::filesystem::path directory;  ///< empty: nothing is written
+  double contact_time = 0;                ///< t_n of the contact that the scene is about
+  std::shared_ptr<io::RunFiles> files{};  ///< where they are written; without them nothing is
 
   Schedule schedule(double from, double every) const { return {from, every, time_step}; }
   /// The time in which averages are taken; from = nothing stands for "steady": the whole run, in blocks fine
@@ -47,7 +48,10 @@ struct RunContext {
   Window window(std::optional<double> from) const { return {from.value_or(0), duration, from ? 10u : 64u}; }
   /// Comment lines of a table: what it holds, and from which run.
   std::vector<std::string> comments(std::string what) const;
+  /// A table, which is written again and again, as of now.
   void write(const std::string& name, const std::string& bytes) const;
+  /// A frame, which never changes.
+  void write_once(const std::string& name, const std::string& bytes) const;
 };
 
 /// One instant of a run, as observers see it.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/atomic_file.hpp"
+#include "common/error.hpp"
 #include "common/hash.hpp"
 #include "run/flow.hpp"
 #include "run/version.hpp"
@@ -38,8 +39,31 @@ void write_record(const std::filesystem::path& file, const RunRecord& r,
   }
   if (starts.size() > 1)
     for (const auto& start : starts) json["starts"].push_back(to_json(start));
+  for (const auto& [name, sum] : r.files)
+    json["files"][name] = {{"bytes", sum.bytes}, {"sha256", sum.sha256}};
   // a command line may hold any bytes
   write_atomically(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+std::string read_record_text(const std::filesystem::path& directory) {
+  const auto text = read_file(directory / "run.json");
+  auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (!json.is_object()) return text;
+  json.erase("files");
+  return json.dump(2) + "\n";
+}
+
+io::FileSums read_file_sums(const std::filesystem::path& directory) {
+  const auto file = directory / "run.json";
+  try {
+    io::FileSums sums;
+    const auto json = nlohmann::json::parse(read_file(file));
+    for (const auto& [name, sum] : json.at("files").items())
+      sums[name] = {sum.at("bytes").get<std::uint64_t>(), sum.at("sha256").get<std::string>(), false};
+    return sums;
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(file.string() + ": does not tell what the run's files hold");
+  }
 }
 
 }  // namespace chute::run

@@ -14,6 +14,7 @@
 #include "measure/schedule.hpp"
 #include "run/record.hpp"
 #include "run/session.hpp"
+#include "run/version.hpp"
 
 namespace chute::run {
 namespace {
@@ -27,14 +28,14 @@ class Run {
       : scene_(scene),
         options_(options),
         resolved_(scene::to_toml(scene)),
-        session_(scene, options.threads,
-                 options.directory),  // may refuse the scene: before anything is written
+        files_(std::make_shared<io::RunFiles>(options.directory)),
+        session_(scene, options.threads, files_),  // may refuse the scene: before anything is written
         directory_(options.directory, options.existing),
         checkpoint_due_(scene.checkpoint, scene.checkpoint, session_.time_step()) {}
 
   RunResult go() {
     const auto begin = Clock::now();
-    begin_();
+    begin_or_put_back();
     const auto first = engine().step(), last = session_.last_step();
     bool wanted = true;
     while (engine().step() < last && wanted) {
@@ -46,6 +47,7 @@ class Run {
     const std::chrono::duration<double> took = Clock::now() - begin;
     const bool finished = engine().step() >= last;
     write_run_json(finished ? "finished" : "interrupted", "", took.count());
+    if (finished) directory_.finish();
     return {finished, engine().step() - first, engine().grains().moving, took.count()};
   }
 
@@ -53,6 +55,7 @@ class Run {
   const scene::Scene& scene_;
   const RunOptions& options_;
   std::string resolved_;
+  std::shared_ptr<io::RunFiles> files_;
   Session session_;
   RunDirectory directory_;
   measure::Schedule checkpoint_due_;
@@ -76,16 +79,48 @@ class Run {
     tune_report(engine().step() - from, Clock::now() - before);
   }
 
+  /// As far as the first checkpoint. Before it there is nothing to resume, and a run that was to be replaced comes back.
+  void begin_or_put_back() {
+    try {
+      begin_();
+    } catch (...) {
+      directory_.put_back();
+      throw;
+    }
+  }
+
   void begin_() {
     if (directory_.resumes()) {
-      std::istringstream state(io::read_checkpoint(directory_.file("checkpoint"), resolved_));
+      const auto checkpoint = io::read_checkpoint(directory_.file("checkpoint"), resolved_);
+      if (checkpoint.program != program() && options_.warn)
+        options_.warn(
+            fmt::format("{}: written by {}, this is {}: the results may differ from those of one program",
+                        directory_.file("checkpoint").string(), checkpoint.program, program()));
+      std::istringstream state(checkpoint.state);
       session_.load(state);
+      for (const auto& difference : io::frames_cut_short(directory_.path(), files_->sums()))
+        throw InputError(difference + "; give --force to start again");
       return;
     }
-    write_atomically(directory_.file("scene.toml"), resolved_);
-    write_run_json("running");
+    refuse_another_scene();
+    directory_.claim(record("running"));
+    files_->write("scene.toml", resolved_);
+    files_->commit();
     session_.begin();
     save();  // a run that leaves physics right away leaves a checkpoint too
+  }
+
+  /// A run that was cut off before its first checkpoint begins again, but not with another scene.
+  void refuse_another_scene() const {
+    if (options_.existing != Existing::resume) return;
+    const auto file = directory_.file("scene.toml");
+    if (std::filesystem::exists(file) && read_file(file) != resolved_)
+      throw InputError(file.string() + ": is another scene; give --force to replace the run");
+  }
+
+  /// What wrote a checkpoint; the same bytes are promised of the same build only.
+  static std::string program() {
+    return fmt::format("chute {} ({}, build {})", version, commit, build_hash().substr(0, 8));
   }
 
   /// What a kill may cost against what all checkpoints cost: of many grains and short intervals a run would do nothing else.
@@ -98,24 +133,36 @@ class Run {
   void save() {
     const auto before = Clock::now();
     session_.write();
-    io::write_checkpoint(directory_.file("checkpoint"), resolved_, session_.grains(),
-                         [&](std::ostream& out) { session_.save(out); });
+    const auto path = directory_.file("checkpoint");
+    auto checkpoint = io::made_checkpoint(path, {resolved_, program()}, session_.grains(),
+                                          [&](std::ostream& out) { session_.save(out); });
+    checkpoint.begin_flush();
+    files_->commit();
+    checkpoint.flush();
+    checkpoint.move_into_place();
+    flush_folder(directory_.path());
     saved_ = Clock::now();
     saving_takes_ = saved_ - before;
   }
 
-  void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {
+  RunRecord record(const std::string& state) {
     RunRecord record;
     record.command = options_.command_line;
     record.seed = scene_.seed;
     record.threads = options_.threads;
     record.started = started_;
-    record.seconds = seconds;
     record.steps = engine().step();
     record.time_step = session_.time_step();
     record.time = engine().time();
     record.clock = session_.context().offers.clock;
     record.end = state;
+    record.files = files_->sums();
+    return record;
+  }
+
+  void write_run_json(const std::string& state, const std::string& why = "", double seconds = 0) {
+    auto record = this->record(state);
+    record.seconds = seconds;
     record.why = why;
     const auto& series = session_.series();
     record.tilting = series.turning_angles();

@@ -15,6 +15,8 @@ struct RunOptions {
   std::string command_line;  ///< for run.json
   /// Called now and then with the part done, 0 to 1. Returning false stops the run after a checkpoint.
   std::function<bool(double part)> progress;
+  /// Told what the user should know, though the run goes on.
+  std::function<void(const std::string&)> warn;
 };
 
 struct RunResult {

@@ -28,7 +28,7 @@ std::unique_ptr<Engine> made(const scene::Scene& scene, int threads, measure::Ru
 
 }  // namespace
 
-Session::Session(const scene::Scene& scene, int threads, const std::filesystem::path& directory) {
+Session::Session(const scene::Scene& scene, int threads, std::shared_ptr<io::RunFiles> files) {
   engine_ = scene.dimensions == 2 ? made<2>(scene, threads, run_) : made<3>(scene, threads, run_);
   run_.title = scene.title;
   run_.made_by =
@@ -42,7 +42,7 @@ Session::Session(const scene::Scene& scene, int threads, const std::filesystem::
   run_.duration = scene.duration;
   const auto setting = scene::setting_of(scene);
   run_.contact_time = setting.contact.impact(setting.reference()).contact_time;
-  run_.directory = directory;
+  run_.files = std::move(files);
   last_step_ = std::max<std::int64_t>(1, std::llround(scene.duration / run_.time_step));
   for (const auto& output : scene.output) {
     if (!output->wanted()) continue;
@@ -92,12 +92,14 @@ void Session::save(std::ostream& out) const {
   engine_->save(out);
   cereal::PortableBinaryOutputArchive archive(out);
   for (const auto& observer : observers_) observer->save(archive);
+  if (run_.files) archive(*run_.files);
 }
 
 void Session::load(std::istream& in) {
   engine_->restore(in);
   cereal::PortableBinaryInputArchive archive(in);
   for (const auto& observer : observers_) observer->load(archive);
+  if (run_.files) archive(*run_.files);
   prepare();
 }
 

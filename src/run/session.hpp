@@ -13,9 +13,9 @@ namespace chute::run {
 /// adds a directory with files and checkpoints, `sweep` and figures only want to know what became of it.
 class Session {
  public:
-  /// Makes the world and the engine; InputError or WorkError if the scene cannot be run. With an empty `directory` nothing
-  /// is written.
-  Session(const scene::Scene& scene, int threads, const std::filesystem::path& directory = {});
+  /// Makes the world and the engine; InputError or WorkError if the scene cannot be run. Without `files` nothing is
+  /// written.
+  Session(const scene::Scene& scene, int threads, std::shared_ptr<io::RunFiles> files = {});
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -33,7 +33,7 @@ class Session {
 
   const measure::SeriesObserver& series() const { return *series_; }
 
-  /// All files as of now.
+  /// All files as of now, which RunFiles::commit then shows.
   void write() const;
   /// The grains as a VTK file, for checkpoints.
   std::string grains() const { return io::grains_vtp(engine_->grains(), run_.facts, io::Packing::plain); }

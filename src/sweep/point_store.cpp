@@ -45,7 +45,7 @@ void PointStore::put(const scene::Scene& scene, const Followed& followed) const 
   Json json{{"build", build_hash()}, {"left_physics", followed.left_physics}, {"starts", Json::array()}};
   for (const auto& start : followed.starts) json["starts"].push_back(run::to_json(start));
   json["scene"] = text;
-  write_atomically(file_of(text), json.dump(1) + "\n");
+  write_atomically(file_of(text), json.dump(1) + "\n", Flush::later);
 }
 
 Followed PointStore::get(const scene::Scene& scene, const Report& progress) const {

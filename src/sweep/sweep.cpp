@@ -5,6 +5,7 @@
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/file_lock.hpp"
 #include "io/csv.hpp"
 #include "run/version.hpp"
 #include "sweep/sweep_file.hpp"
@@ -51,6 +52,7 @@ class Sweep {
   SweepSpec spec_;
   std::vector<Place> places_;
   scene::Scene first_;
+  std::vector<FolderLock> locks_;
   std::optional<PointStore> store_;
 
   std::size_t seeds() const { return static_cast<std::size_t>(spec_.seeds); }
@@ -62,24 +64,33 @@ class Sweep {
   }
   fs::path file(const char* name) const { return options_.directory / name; }
 
-  void claim_folder() const {
+  std::string shard() const { return fmt::format("shard-{}-of-{}", options_.shard, options_.shards); }
+
+  /// Shards share the folder, and may all start at the same moment: whoever comes first writes what the sweep is.
+  void claim_folder() {
+    const auto refuse = [&](const char* what) {
+      throw InputError(fmt::format("{}: {}", options_.directory.string(), what));
+    };
     const auto text = to_toml(base_, spec_);
     const auto mark = file("sweep.toml");
+    if (holds_other_things() && !fs::exists(mark)) refuse("holds other things; choose another folder");
     std::error_code error;
-    if (fs::exists(mark)) {
-      if (read_file(mark) != text)
-        throw InputError(
-            fmt::format("{}: holds another sweep; choose another folder", options_.directory.string()));
-      if (!options_.resume && options_.shards == 1)
-        throw InputError(fmt::format("{}: holds this sweep already; --resume goes on with it",
-                                     options_.directory.string()));
-    } else if (fs::exists(options_.directory) && !fs::is_empty(options_.directory, error)) {
-      throw InputError(
-          fmt::format("{}: holds other things; choose another folder", options_.directory.string()));
-    }
     fs::create_directories(options_.directory, error);
     if (error) throw WorkError(options_.directory.string() + ": cannot be made: " + error.message());
-    write_atomically(mark, text);
+    locks_.emplace_back(options_.directory, options_.shards > 1 ? LockKind::together : LockKind::alone);
+    if (options_.shards > 1) locks_.emplace_back(options_.directory, LockKind::alone, shard());
+    remove_leftovers(options_.directory);
+    remove_leftovers(file("points"));
+    const bool first = write_if_absent(mark, text);
+    if (read_file(mark) != text) refuse("holds another sweep; choose another folder");
+    if (!first && !options_.resume && options_.shards == 1)
+      refuse("holds this sweep already; --resume goes on with it");
+  }
+  bool holds_other_things() const {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(options_.directory, error))
+      if (!is_temporary(entry.path()) && !FolderLock::is_name(entry.path())) return true;
+    return false;
   }
 
   std::vector<std::string> comments(std::string what) const {

@@ -223,6 +223,13 @@ class Runs(App):
             says = self.refused("run", self.scene, "-o", self.path("home"), *flags)
             self.assertIn("holds files that are not a run", says)
 
+    def wait_for(self, path):
+        """Until the file is there, but no longer than a loaded machine takes."""
+        for _ in range(6000):
+            if os.path.exists(path):
+                return
+            time.sleep(0.01)
+
     def test_a_stopped_run_goes_on(self):
         """Stopped by a signal, or killed outright, and resumed: the bytes of a run that nobody disturbed."""
         long = ["--quiet", "--set", "run.duration=400", "--set", "output.frames.every=50", "--set",
@@ -237,6 +244,7 @@ class Runs(App):
             if how is None:
                 self.assertEqual(run.communicate()[1], "")
                 break
+            self.wait_for(self.path("out", "run.json"))  # before it, a signal ends it with nothing written
             time.sleep(0.3)
             run.send_signal(how)
             said = run.communicate(timeout=60)[1]

@@ -11,11 +11,13 @@ using namespace chute::test;
 namespace {
 
 const std::string scene = "title = \"a scene\"\n";
+const std::string program = "chute 1.2.3 (abc)";
 const std::string grains = "grains as VTK has them";
 const std::string state("grains \0 and so on", 18);
 
 std::string saved(const Folder& folder) {
-  io::write_checkpoint(folder / "checkpoint", scene, grains, [](std::ostream& out) { out << state; });
+  io::write_checkpoint(folder / "checkpoint", {scene, program}, grains,
+                       [](std::ostream& out) { out << state; });
   return content(folder / "checkpoint");
 }
 std::string refused(const Folder& folder, const std::string& bytes, const std::string& of = scene) {
@@ -28,21 +30,22 @@ std::string refused(const Folder& folder, const std::string& bytes, const std::s
 TEST_CASE("a checkpoint gives back what was saved") {
   const Folder folder;
   saved(folder);
-  CHECK(io::read_checkpoint(folder / "checkpoint", scene) == state);
+  CHECK(io::read_checkpoint(folder / "checkpoint", scene).state == state);
+  CHECK(io::read_checkpoint(folder / "checkpoint", scene).program == program);
   CHECK(io::read_checkpoint_grains(folder / "checkpoint") == grains);
-  io::write_checkpoint(folder / "checkpoint", scene, grains, [](std::ostream&) {});
-  CHECK(io::read_checkpoint(folder / "checkpoint", scene).empty());
+  io::write_checkpoint(folder / "checkpoint", {scene, program}, grains, [](std::ostream&) {});
+  CHECK(io::read_checkpoint(folder / "checkpoint", scene).state.empty());
 }
 
 TEST_CASE("empty arrays, which have no address, do not disturb the sum") {
   const Folder folder;
-  io::write_checkpoint(folder / "checkpoint", scene, grains, [](std::ostream& out) {
+  io::write_checkpoint(folder / "checkpoint", {scene, program}, grains, [](std::ostream& out) {
     out << state;
     out.rdbuf()->sputn(nullptr, 0);
     out << state;
     out.rdbuf()->sputn(nullptr, 0);
   });
-  CHECK(io::read_checkpoint(folder / "checkpoint", scene) == state + state);
+  CHECK(io::read_checkpoint(folder / "checkpoint", scene).state == state + state);
 }
 
 TEST_CASE("a checkpoint cut anywhere is refused in one line") {
@@ -90,7 +93,7 @@ TEST_CASE("a save that fails leaves the old checkpoint whole and nothing beside 
   const Folder folder;
   const auto whole = saved(folder);
   struct Oops {};
-  CHECK_THROWS_AS(io::write_checkpoint(folder / "checkpoint", scene, grains,
+  CHECK_THROWS_AS(io::write_checkpoint(folder / "checkpoint", {scene, program}, grains,
                                        [](std::ostream& out) {
                                          out << "half";
                                          throw Oops{};
