@@ -1,9 +1,12 @@
 #include "run/facts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "common/toml_reader.hpp"
 #include "scene/world.hpp"
 
 namespace chute::run {
@@ -30,8 +33,36 @@ std::vector<Fact> facts(const scene::Scene& scene) {
   return list;
 }
 
+namespace {
+
+/// Outputs that will never have anything to write: their keys are read from the complete scene, whatever kind they are.
+std::vector<std::string> outputs_beyond_the_end(const scene::Scene& scene) {
+  std::vector<std::string> told;
+  const auto complete = parse_toml(scene::to_toml(scene), scene.title);
+  const auto* outputs = complete["output"].as_table();
+  if (!outputs) return told;
+  for (const auto& [name, node] : *outputs) {
+    const auto* output = node.as_table();
+    if (!output) continue;
+    const auto beyond = [&, key = std::string(name.str())](const char* what, const char* follows) {
+      const auto value = (*output)[what].value<double>();
+      if (value && *value > scene.duration)
+        told.push_back(fmt::format("output.{}.{} = {:g} lies beyond the end of the run at {:g}: {}", key,
+                                   what, *value, scene.duration, follows));
+      return value && *value > scene.duration;
+    };
+    if (!beyond("from", "it is written without anything in it"))
+      beyond("every", "only its first time is written");
+  }
+  return told;
+}
+
+}  // namespace
+
 std::vector<std::string> warnings(const scene::Scene& scene) {
-  return scene.engine->warnings(scene::setting_of(scene));
+  auto told = scene.engine->warnings(scene::setting_of(scene));
+  for (auto& warning : outputs_beyond_the_end(scene)) told.push_back(std::move(warning));
+  return told;
 }
 
 }  // namespace chute::run

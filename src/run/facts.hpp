@@ -8,7 +8,7 @@ namespace chute::run {
 
 /// What follows from a scene, for `chute check`: what is so for every method, and what the method tells of itself.
 std::vector<Fact> facts(const scene::Scene& scene);
-/// What its method warns of.
+/// What its method warns of, and outputs that begin after the run ends.
 std::vector<std::string> warnings(const scene::Scene& scene);
 
 }  // namespace chute::run

@@ -81,6 +81,14 @@ class Faults(unittest.TestCase):
         done = self.run_chute("run", *self.scene(output__checkpoint="1e-300"), "-o", "out", "--force", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_outputs_beyond_the_end_are_told(self):
+        for key, says in (("output__frames__from", "output.frames.from = 5 lies beyond the end of the run at 2"),
+                          ("output__profiles__from", "output.profiles.from = 5 lies beyond the end"),
+                          ("output__series__every", "output.series.every = 5 lies beyond the end")):
+            self.assertIn("# warning: " + says, self.run_chute("check", *self.scene(**{key: "5"})).stdout)
+            self.assertIn("warning: " + says, self.run_chute("run", *self.scene(**{key: "5"}), "-o", "out", "--force").stderr)
+        self.assertNotIn("warning", self.run_chute("check", *self.scene()).stdout)
+
     def test_more_output_than_a_disk_takes(self):
         for every in ("1e-8", "1e-9"):
             said = self.refused("run", *self.scene(output__series__every=every), "-o", "out")

@@ -220,28 +220,28 @@ void TimeTiles<D>::step(const StepParts<D>& parts, const Slab& slab, Scratch& sc
 /// Adds what forces see of a strip now to its history.
 template <int D>
 void TimeTiles<D>::keep(const StepParts<D>& parts, std::size_t strip, History& history) const {
-  const auto in = strips_.grains(strip, strip + 1);
+  const Part own = strips_.grains(strip, strip + 1);
   history.at.push_back(history.numbers.size());
   for_seen(parts.grains, [&](const Array& a) {
-    history.numbers.insert(history.numbers.end(), a.data() + in.begin, a.data() + in.end);
+    history.numbers.insert(history.numbers.end(), a.data() + own.begin, a.data() + own.end);
   });
   for (const auto& word : parts.list.coarse_words())
-    history.words.insert(history.words.end(), word.data() + in.begin, word.data() + in.end);
+    history.words.insert(history.words.end(), word.data() + own.begin, word.data() + own.end);
 }
 
 /// Exchanges a strip as it is now with its history.
 template <int D>
 void TimeTiles<D>::swap(const StepParts<D>& parts, std::size_t strip, std::int64_t step,
                         History& history) const {
-  const auto in = strips_.grains(strip, strip + 1);
+  const Part own = strips_.grains(strip, strip + 1);
   constexpr std::size_t fields = 2 * D + turns<D>;
   const std::size_t at = history.at[static_cast<std::size_t>(step)];
   double* number = history.numbers.data() + at;
   for_seen(parts.grains,
-           [&](Array& a) { number = std::swap_ranges(a.data() + in.begin, a.data() + in.end, number); });
+           [&](Array& a) { number = std::swap_ranges(a.data() + own.begin, a.data() + own.end, number); });
   std::uint64_t* kept = history.words.data() + at / fields * search::CoarsePlaces<D>::words;
   for (auto& word : parts.list.coarse_words())
-    kept = std::swap_ranges(word.data() + in.begin, word.data() + in.end, kept);
+    kept = std::swap_ranges(word.data() + own.begin, word.data() + own.end, kept);
 }
 
 template <int D>
