@@ -5,9 +5,10 @@
 namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
-constexpr std::array extract_words{
-    "histogram"sv, "return-map"sv, "scatter"sv, "peak"sv, "profile"sv,  "series"sv,     "last"sv,
-    "pressure"sv,  "value"sv,      "line"sv,    "map"sv,  "spectrum"sv, "avalanches"sv, "mean-avalanche"sv};
+constexpr std::array extract_words{"histogram"sv, "return-map"sv, "scatter"sv,    "peak"sv,
+                                   "profile"sv,   "series"sv,     "last"sv,       "pressure"sv,
+                                   "value"sv,     "mean"sv,       "table"sv,      "line"sv,
+                                   "map"sv,       "spectrum"sv,   "avalanches"sv, "mean-avalanche"sv};
 }  // namespace
 
 static void describe(TomlReader& a, Where& where) {
@@ -26,7 +27,8 @@ static void describe(TomlReader& a, Curve& curve) {
   a.check(curve.runs.empty() || curve.set.empty(), "set",
           "changes a scene; runs that are there cannot be changed");
   a.choice("extract", curve.extract, extract_words);
-  const bool line = curve.extract == Extract::line, value = curve.extract == Extract::value;
+  const bool line = curve.extract == Extract::line, table = curve.extract == Extract::table;
+  const bool mean = curve.extract == Extract::mean, value = curve.extract == Extract::value || mean;
   const bool avalanches = curve.extract == Extract::avalanches;
   if (avalanches || curve.extract == Extract::mean_avalanche)
     a.required("length", curve.length, positive);
@@ -37,9 +39,12 @@ static void describe(TomlReader& a, Curve& curve) {
     a.check(!curve.collapse || curve.collapse->size() == 2, "collapse", "must be [tau, D]");
   }
   const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
-  if (scatter) a.required("against", curve.against), a.value("absolute_x", curve.absolute_x);
-  if (value) a.required("file", curve.file);
-  if (histogram || scatter) a.value("file", curve.file), a.sections("where", curve.where);
+  if (scatter || table) a.required("against", curve.against);
+  if (scatter) a.value("absolute_x", curve.absolute_x);
+  if (value || table) a.required("file", curve.file);
+  if (histogram || scatter) a.value("file", curve.file);
+  if (histogram || scatter || mean) a.sections("where", curve.where);
+  if (value) a.value("x_power", curve.x_power, at_least(0)), a.value("x_scale", curve.x_scale, positive);
   if (histogram || value) a.value("scale", curve.scale);
   if (line) a.required("slope", curve.slope);
   if (histogram) a.value("over_sine", curve.over_sine), a.value("times_velocity", curve.times_velocity);
@@ -111,6 +116,7 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.sections("curve", recipe.curves);
   recipe.curves = point_by_point(recipe.curves);
   a.sections("sweep", recipe.sweeps);
+  a.sections("fit", recipe.fits);
   a.check(!recipe.curves.empty() || !recipe.sweeps.empty(), "curve",
           "a figure needs at least one [[data.curve]] or [[data.sweep]]");
   a.check(recipe.sweeps.empty() || recipe.scene, "sweep", "needs a scene to change");

@@ -17,10 +17,11 @@ FigureTable compute_fig_4_31(const FigureContext& context);     ///< what the im
 FigureTable compute_theory_4_17(const FigureContext& context);  ///< v̄_x(sin θ), ε = 0
 FigureTable compute_theory_4_18(const FigureContext& context);  ///< v̄_x(sin θ), mean gap 0.1
 FigureTable compute_theory_4_20(const FigureContext& context);  ///< θ_AB(Φ)
+FigureTable compute_theory_4_32(const FigureContext& context);  ///< times of flight of the stochastic model
+FigureTable compute_theory_m_09(const FigureContext& context);  ///< heights in a Tonks gas under gravity
 FigureTable compute_theory_m_08(const FigureContext& context);  ///< Z(φ) of hard discs and spheres
 
-/// All of them, by id: `fig-4-04`, `fig-4-19`, `fig-4-31`; `theory-4-17`, `theory-4-18`, `theory-4-20` are parts of
-/// figures.
+/// All of them, by id: `fig-4-04`, `fig-4-19`, `fig-4-31`; those named `theory-…` are parts of figures.
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures();
 
 }  // namespace chute::theory
