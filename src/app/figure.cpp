@@ -108,6 +108,9 @@ figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, cons
   auto simulated =
       figures::simulate(recipe.data, file, directory / "runs", context, command_line(), progress);
   simulated.rows.insert(simulated.rows.begin(), table.rows.begin(), table.rows.end());
+  // What x and y are the recipe says; the rest tells of the rows that were computed.
+  for (const auto& comment : table.comments)
+    if (!comment.starts_with("x:") && !comment.starts_with("y:")) simulated.comments.push_back(comment);
   return simulated;
 }
 

@@ -6,13 +6,15 @@ namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
 constexpr std::array extract_words{
-    "histogram"sv, "return-map"sv, "scatter"sv, "peak"sv,   "profile"sv,  "series"sv,     "last"sv,
-    "pressure"sv,  "value"sv,      "line"sv,    "map"sv,    "spectrum"sv, "avalanches"sv, "mean-avalanche"sv,
-    "table"sv,     "cooling"sv,    "rate"sv,    "record"sv, "network"sv,  "depth"sv,      "janssen"sv};
+    "histogram"sv, "return-map"sv, "scatter"sv,        "peak"sv,   "profile"sv, "series"sv,
+    "last"sv,      "pressure"sv,   "value"sv,          "mean"sv,   "line"sv,    "map"sv,
+    "spectrum"sv,  "avalanches"sv, "mean-avalanche"sv, "table"sv,  "cooling"sv, "rate"sv,
+    "record"sv,    "network"sv,    "depth"sv,          "janssen"sv};
 
 bool is_point_by_point(Extract extract) {
   return extract == Extract::peak || extract == Extract::last || extract == Extract::pressure ||
-         extract == Extract::value || extract == Extract::rate || extract == Extract::record;
+         extract == Extract::value || extract == Extract::mean || extract == Extract::rate ||
+         extract == Extract::record;
 }
 }  // namespace
 
@@ -32,7 +34,8 @@ static void describe(TomlReader& a, Curve& curve) {
   a.check(curve.runs.empty() || curve.set.empty(), "set",
           "changes a scene; runs that are there cannot be changed");
   a.choice("extract", curve.extract, extract_words);
-  const bool line = curve.extract == Extract::line, value = curve.extract == Extract::value;
+  const bool line = curve.extract == Extract::line, table = curve.extract == Extract::table;
+  const bool mean = curve.extract == Extract::mean, value = curve.extract == Extract::value || mean;
   const bool avalanches = curve.extract == Extract::avalanches;
   if (avalanches || curve.extract == Extract::mean_avalanche)
     a.required("length", curve.length, positive);
@@ -43,11 +46,12 @@ static void describe(TomlReader& a, Curve& curve) {
     a.check(!curve.collapse || curve.collapse->size() == 2, "collapse", "must be [tau, D]");
   }
   const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
-  if (scatter) a.required("against", curve.against), a.value("absolute_x", curve.absolute_x);
-  if (value) a.required("file", curve.file);
-  if (histogram || scatter) a.value("file", curve.file), a.sections("where", curve.where);
-  const bool table = curve.extract == Extract::table;
-  if (table) a.required("file", curve.file), a.required("against", curve.against);
+  if (scatter || table) a.required("against", curve.against);
+  if (scatter) a.value("absolute_x", curve.absolute_x);
+  if (value || table) a.required("file", curve.file);
+  if (histogram || scatter) a.value("file", curve.file);
+  if (histogram || scatter || mean) a.sections("where", curve.where);
+  if (value) a.value("x_power", curve.x_power, at_least(0)), a.value("x_scale", curve.x_scale, positive);
   const bool rate = curve.extract == Extract::rate || curve.extract == Extract::record;
   if (histogram || value || rate || curve.extract == Extract::network) a.value("scale", curve.scale);
   if (rate) a.value("scale_x", curve.scale_x);
@@ -124,6 +128,7 @@ void describe(TomlReader& a, DataRecipe& recipe) {
   a.sections("curve", recipe.curves);
   recipe.curves = point_by_point(recipe.curves);
   a.sections("sweep", recipe.sweeps);
+  a.sections("fit", recipe.fits);
   a.check(!recipe.curves.empty() || !recipe.sweeps.empty(), "curve",
           "a figure needs at least one [[data.curve]] or [[data.sweep]]");
   a.check(recipe.sweeps.empty() || recipe.scene, "sweep", "needs a scene to change");

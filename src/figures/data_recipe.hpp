@@ -8,6 +8,7 @@
 
 #include "common/toml_reader.hpp"
 #include "experiments/recipe.hpp"
+#include "figures/fits.hpp"
 #include "figures/sweep_curves.hpp"
 
 namespace chute::figures {
@@ -23,12 +24,13 @@ enum class Extract {
   last,        ///< a column of series.csv at the end of the run, against `at`
   pressure,    ///< a column of pressure.csv against the packing fraction
   value,       ///< the one number of a column of `file`, against the value of `vary`; averaged over the runs
+  mean,        ///< the mean of a column of `file` over its rows, against the value of `vary`
+  table,       ///< a column of `file` against another, averaged over the runs
   line,        ///< a straight line through the origin, to guide the eye
   map,         ///< a field of cells against x, one series a file
   spectrum,    ///< of that field's fluctuations in time
   avalanches,  ///< distribution of avalanches' sizes, of a pile as long as `length`
   mean_avalanche,  ///< their mean size, against `length`
-  table,           ///< a column of `file` against the column `against`, averaged over the runs
   cooling,         ///< √(T_0/T) or a_2 of a gas against t/τ (extract_hard.hpp, as all that follow)
   rate,            ///< how fast a column of series.csv changes, against the value of `vary`
   record,          ///< a number of run.json, against that
@@ -54,17 +56,19 @@ struct Curve {
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe
   Extract extract = Extract::histogram;
-  std::optional<std::string> file;  ///< histogram, scatter, value: a CSV file of the run; default its impacts
-  std::string column;               ///< what is drawn (y; x of a histogram)
-  std::vector<Where> where;         ///< histogram, scatter: only rows that all of these let pass
+  std::optional<std::string>
+      file;            ///< histogram, scatter, value, mean, table: a CSV file of the run; default its impacts
+  std::string column;  ///< what is drawn (y; x of a histogram)
+  std::vector<Where> where;         ///< histogram, scatter, mean: only rows that all of these let pass
   bool over_sine = false;           ///< histogram: divided by the sine of x, the size of a ring on a sphere
-  double scale = 1;                 ///< histogram: x times this; value, rate, record, network: y
+  double scale = 1;                 ///< histogram: x times this; value, mean, rate, record, network: y
+  double x_power = 1, x_scale = 1;  ///< value, mean: x is the value of `vary` to this power, times this
+  bool times_velocity = false;      ///< histogram: and x times the run's mean velocity: a time becomes a way
   double scale_x = 1;               ///< rate, record: x times this
-  double packing = 0, restitution = 1;  ///< cooling: φ and e_n
-  bool times_velocity = false;  ///< histogram: and x times the run's mean velocity: a time becomes a way
-  double slope = 1;             ///< line
-  std::string against;          ///< scatter: the column for x
-  std::int64_t bins = 100;      ///< histogram
+  double packing = 0, restitution = 1;       ///< cooling: φ and e_n
+  double slope = 1;                          ///< line
+  std::string against;                       ///< scatter, table: the column for x
+  std::int64_t bins = 100;                   ///< histogram
   std::optional<std::vector<double>> range;  ///< histogram: [low, high]; default: what occurs
   double fold = 0;                           ///< histogram, scatter: take angles modulo this; 0: as they are
   bool absolute = false;                     ///< histogram, scatter: the column's absolute value
@@ -95,6 +99,7 @@ struct DataRecipe {
   std::vector<std::string> notes;           ///< further comments
   std::vector<Curve> curves;
   std::vector<SweepCurve> sweeps;  ///< [[data.sweep]]: curves made from many runs
+  std::vector<Fit> fits;           ///< [[data.fit]]: laws put through series that are there
 };
 
 void describe(TomlReader& a, DataRecipe& recipe);

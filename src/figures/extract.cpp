@@ -239,6 +239,9 @@ std::vector<FigureRow> last(const Curve& curve, std::span<const fs::path> runs) 
   return {{curve.panel, curve.series, curve.at, mean, {}, error}};
 }
 
+/// Where the point of a curve stands along which something varies.
+double x_of(const Curve& curve) { return curve.x_scale * std::pow(curve.at, curve.x_power); }
+
 /// The one number that a table of each run has in this column, over the runs. Runs that have none do not count.
 std::vector<FigureRow> value(const Curve& curve, std::span<const fs::path> runs) {
   std::vector<double> values;
@@ -256,7 +259,27 @@ std::vector<FigureRow> value(const Curve& curve, std::span<const fs::path> runs)
   }
   if (values.empty()) return {};
   const auto [mean, error] = estimate_of(values);
-  return {{curve.panel, curve.series, curve.at, mean, {}, error ? error : own}};
+  return {{curve.panel, curve.series, x_of(curve), mean, {}, error ? error : own}};
+}
+
+/// The mean of a column over the rows of each run's table that pass. Its error is that over the runs, or of one run that
+/// over its rows, which count as independent then.
+std::vector<FigureRow> mean_of_rows(const Curve& curve, std::span<const fs::path> runs) {
+  std::vector<double> means;
+  std::optional<double> own;
+  for (const auto& run : runs) {
+    const Rows rows(curve, run);
+    const auto& column = rows.column(curve.column);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (rows.passes(i) && std::isfinite(column[i])) values.push_back(curve.scale * column[i]);
+    if (values.empty()) continue;
+    const auto [mean, error] = estimate_of(values);
+    means.push_back(mean), own = error;
+  }
+  if (means.empty()) return {};
+  const auto [mean, error] = estimate_of(means);
+  return {{curve.panel, curve.series, x_of(curve), mean, {}, error ? error : own}};
 }
 
 std::vector<FigureRow> line(const Curve& curve) {
@@ -287,6 +310,10 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return averaged(curve, runs, "pressure.csv");
     case Extract::value:
       return value(curve, runs);
+    case Extract::mean:
+      return mean_of_rows(curve, runs);
+    case Extract::table:
+      return averaged(curve, runs, *curve.file, curve.against);
     case Extract::line:
       return line(curve);
     case Extract::map:
@@ -297,8 +324,6 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return avalanche_sizes(curve, runs);
     case Extract::mean_avalanche:
       return mean_avalanche(curve, runs);
-    case Extract::table:
-      return averaged(curve, runs, *curve.file, curve.against);
     case Extract::cooling:
       return cooling(curve, runs);
     case Extract::rate:

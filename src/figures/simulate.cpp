@@ -146,6 +146,7 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     table.comments.insert(table.comments.end(), made.comments.begin(), made.comments.end());
     table.rows.insert(table.rows.end(), made.rows.begin(), made.rows.end());
   }
+  for (const auto& fit : recipe.fits) draw_fit(fit, table);
   return table;
 }
 

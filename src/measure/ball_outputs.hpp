@@ -67,18 +67,37 @@ class BeadsOutput final : public TableOutput<BeadsOutput, BeadSpec> {
 };
 
 struct TrappingSpec {
-  double every = 0;
+  double every = 0, from = 0;
 };
 template <class Archive>
 void describe(Archive& a, TrappingSpec& spec) {
   a.required("every", spec.every, positive, "time between looks");
+  a.value("from", spec.from, non_negative,
+          "of trapping_rate.csv: grains that move now, and what they do from now on, count");
 }
 /// [output.trapping]
 class TrappingOutput final : public TableOutput<TrappingOutput, TrappingSpec> {
  public:
-  static constexpr std::string_view word = "trapping",
-                                    text = "which grains came to rest, where, and how far they had gone";
-  std::vector<std::string> files() const override { return {"trapping.csv"}; }
+  static constexpr std::string_view
+      word = "trapping",
+      text = "which grains came to rest, where, how far they had gone, and how often";
+  std::vector<std::string> files() const override { return {"trapping.csv", "trapping_rate.csv"}; }
+  std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
+};
+
+struct StartingSpec {
+  double every = 0;
+};
+template <class Archive>
+void describe(Archive& a, StartingSpec& spec) {
+  a.required("every", spec.every, positive, "time between looks");
+}
+/// [output.starting]
+class StartingOutput final : public TableOutput<StartingOutput, StartingSpec> {
+ public:
+  static constexpr std::string_view word = "starting",
+                                    text = "when grains at rest begin to move, on an incline that tilts";
+  std::vector<std::string> files() const override { return {"starting.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
 

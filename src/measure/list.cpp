@@ -18,6 +18,7 @@ Catalogue<Output>& list() {
       kind_of<Output, TrappingOutput>(),   kind_of<Output, BedOutput>(),
       kind_of<Output, AvalanchesOutput>(), kind_of<Output, CellsOutput>(),
       kind_of<Output, ForcesOutput>(),     kind_of<Output, MomentsOutput>(),
+      kind_of<Output, StartingOutput>(),   kind_of<Output, HeightsOutput>(),
   };
   return all;
 }

@@ -97,6 +97,22 @@ class FieldsOutput final : public TableOutput<FieldsOutput, FieldSpec> {
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
 
+struct HeightSpec {
+  double from = 0, every = 0;
+};
+template <class Archive>
+void describe(Archive& a, HeightSpec& spec) {
+  a.value("from", spec.from, non_negative, "averages begin");
+  a.required("every", spec.every, positive, "time between samples");
+}
+/// [output.heights]
+class HeightsOutput final : public TableOutput<HeightsOutput, HeightSpec> {
+ public:
+  static constexpr std::string_view word = "heights", text = "the mean height of every single grain";
+  std::vector<std::string> files() const override { return {"heights.csv"}; }
+  std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
+};
+
 struct ImpactSpec {
   double from = 0;
 };

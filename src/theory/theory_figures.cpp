@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <boost/math/statistics/linear_regression.hpp>
 #include <cmath>
 #include <vector>
 
+#include "core/estimate.hpp"
 #include "theory/hard_gas.hpp"
 #include "theory/rolling.hpp"
 #include "theory/stochastic.hpp"
@@ -201,13 +203,79 @@ FigureTable compute_theory_m_05(const FigureContext&) {
   return table;
 }
 
+FigureTable compute_theory_m_09(const FigureContext&) {
+  constexpr int grains = 20;  // as in the scene
+  FigureTable table;
+  table.comments = {
+      "theory: z_k = d/2 + (k-1) d + sum over j = 1 ... k of T/((N-j+1) m g), exact; N = 20, T = m g d"};
+  double gaps = 0;
+  for (int k = 1; k <= grains; ++k) {
+    gaps += 1.0 / (grains - k + 1);
+    table.rows.push_back({"", "theory", k - 1.0, 0.5 + k - 1 + gaps});
+  }
+  return table;
+}
+
+namespace {
+
+/// The times of flight of the stochastic model as a histogram over the range of fig. 4.32, and their means by side.
+void add_flights(const char* panel, const StochasticModel& model, std::int64_t hops, FigureTable& table) {
+  constexpr double longest = 0.02;
+  constexpr std::size_t bins = 80;
+  constexpr double width = longest / bins;
+  constexpr std::int64_t transient = 1000;
+  Random random(1, Purpose::stochastic);
+  const double scale = std::sqrt(model.gravity * model.ball_radius);
+  StochasticWalk walk(model, {{2 * scale, -0.3 * scale}});
+  std::array<double, bins> counts{};
+  double inside = 0;
+  std::array<std::vector<double>, 2> by_side;  // after downhill and after uphill impacts
+  for (std::int64_t k = 0; k < hops; ++k) {
+    const auto hop = walk.hop(random);
+    if (!hop) break;
+    if (k < transient) continue;
+    by_side[hop->gamma < 0].push_back(hop->time);
+    if (hop->time >= longest) continue;
+    counts[static_cast<std::size_t>(hop->time / width)] += 1, inside += 1;
+  }
+  for (std::size_t b = 0; b < bins && inside > 0; ++b)
+    table.rows.push_back(
+        {panel, "stochastic", (static_cast<double>(b) + 0.5) * width, counts[b] / (inside * width)});
+  table.comments.push_back(
+      fmt::format("{} stochastic: mean times after downhill and uphill impacts {:.2f}, {:.2f} ms", panel,
+                  1e3 * estimate_of(by_side[0]).mean, 1e3 * estimate_of(by_side[1]).mean));
+}
+
+}  // namespace
+
+FigureTable compute_theory_4_32(const FigureContext& context) {
+  struct Case {
+    const char* panel;
+    double restitution, theta;
+  };
+  const std::int64_t hops = context.quick ? 50'000 : 500'000;
+  FigureTable table;
+  table.comments = {fmt::format(
+      "stochastic: the stochastic model as published (4.8), Phi = 5, mu = 0.13, beta = 0; {} impacts, seed 1",
+      hops)};
+  for (const auto& [panel, restitution, theta] :
+       {Case{"a", 0.4, 0.05}, Case{"b", 0.4, 0.08}, Case{"c", 0.8, 0.03}, Case{"d", 0.8, 0.05}}) {
+    StochasticModel model;
+    model.ball_radius = 5 * model.bead_radius;
+    model.theta = theta, model.restitution = restitution, model.friction = 0.13, model.beta = 0;
+    add_flights(panel, model, hops, table);
+  }
+  return table;
+}
+
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures() {
   static const std::map<std::string, std::function<FigureTable(const FigureContext&)>> all{
       {"fig-4-04", compute_fig_4_04},       {"fig-4-19", compute_fig_4_19},
       {"fig-4-31", compute_fig_4_31},       {"theory-4-17", compute_theory_4_17},
       {"theory-4-18", compute_theory_4_18}, {"theory-4-20", compute_theory_4_20},
-      {"theory-m-02", compute_theory_m_02}, {"theory-m-03", compute_theory_m_03},
-      {"theory-m-05", compute_theory_m_05}, {"theory-m-08", compute_theory_m_08}};
+      {"theory-4-32", compute_theory_4_32}, {"theory-m-02", compute_theory_m_02},
+      {"theory-m-03", compute_theory_m_03}, {"theory-m-05", compute_theory_m_05},
+      {"theory-m-08", compute_theory_m_08}, {"theory-m-09", compute_theory_m_09}};
   return all;
 }
 

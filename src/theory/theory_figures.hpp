@@ -21,10 +21,11 @@ FigureTable compute_theory_m_02(const FigureContext& context);  ///< cooling of 
 FigureTable compute_theory_m_03(
     const FigureContext& context);  ///< block and ball on an incline, two frictions
 FigureTable compute_theory_m_05(const FigureContext& context);  ///< distribution of contact forces
+FigureTable compute_theory_4_32(const FigureContext& context);  ///< times of flight of the stochastic model
+FigureTable compute_theory_m_09(const FigureContext& context);  ///< heights in a Tonks gas under gravity
 FigureTable compute_theory_m_08(const FigureContext& context);  ///< Z(φ) of hard discs and spheres
 
-/// All of them, by id: `fig-4-04`, `fig-4-19`, `fig-4-31`; `theory-4-17`, `theory-4-18`, `theory-4-20` are parts of
-/// figures.
+/// All of them, by id: `fig-4-04`, `fig-4-19`, `fig-4-31`; those named `theory-…` are parts of figures.
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures();
 
 }  // namespace chute::theory

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/atomic_file.hpp"
 #include "common/toml_reader.hpp"
 #include "golden.hpp"
 #include "plot/draw.hpp"
 #include "plot/layout.hpp"
+#include "plot/map.hpp"
 #include "plot/mathtext.hpp"
 #include "plot/recipe.hpp"
 
@@ -92,6 +95,16 @@ std::vector<Golden> plot_goldens() {
                 {{"one bin 10 % higher", [](Figure& f) { f.panels[3].series[0].y[2] *= 1.1; }},
                  {"panels swapped", [](Figure& f) { std::swap(f.panels[0], f.panels[1]); }},
                  {"outlines instead of bars", [](Figure& f) { f.panels[2].series[0].kind = Kind::steps; }}}),
+      golden_of("map", {{"colour range 2 % wider",
+                         [](Figure& f) {
+                           const auto range = range_of(*f.panels[0].map);
+                           f.panels[0].map->low = range.low,
+                           f.panels[0].map->high = range.high + 0.02 * (range.high - range.low);
+                         }},
+                        {"one cell missing", [](Figure& f) { f.panels[0].map->values[40] = unknown; }},
+                        {"one contour fewer", [](Figure& f) { --f.panels[1].map->contours; }},
+                        {"colours of one sign", [](Figure& f) { f.panels[1].map->diverging = false; }},
+                        {"upside down", [](Figure& f) { std::ranges::reverse(f.panels[1].map->values); }}}),
       golden_of("return-map",
                 {{"no diagonal", [](Figure& f) { f.panels[1].references.clear(); }},
                  {"x and y exchanged",

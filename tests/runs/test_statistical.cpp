@@ -50,6 +50,12 @@ TEST_CASE(
   packing.push_back("engine.jolt=0.1");
   check("packing-2d.toml", "shakes", packing);
   check("packing-3d.toml", "shakes", {"grains.count=150", "domain.size=[5, 5]", "run.duration=3"});
+  check("mehta-barker.toml", "shakes",
+        {"grains.count=150", "domain.size=[5, 5]", "run.duration=4", "engine.sweeps=100",
+         "output.frames={every=2}"});
+  check("tonks-column.toml", "sweeps",
+        {"run.duration=60", "output.frames={every=20}", "output.series.every=10",
+         "output.heights={from=10, every=5}"});
   check("hard-discs.toml", "sweeps",
         {"run.duration=60", "output.frames={every=20}", "output.series.every=10",
          "output.pairs={from=10, every=10}", "engine.equilibrate=20"});

@@ -167,11 +167,16 @@ void DsmcEngine<D>::heat() {
 
 template <int D>
 void DsmcEngine<D>::check_physics() {
-  for (std::size_t i = 0; i < grains_.moving; ++i) {
-    const double z = grains_.position[D - 1][i];
-    if (std::isnan(z)) leave_physics(i, "its place is not a number");
-    if (z < setup_.floor) leave_physics(i, "it fell through the bed");
-  }
+  // The first grain that is wrong, looked for by all threads: each tells of its own part, and the lowest number counts.
+  std::vector<std::size_t> wrong(team_->size(), grains_.moving);
+  const double* z = grains_.position[D - 1].data();
+  team_->split(grains_.moving, [&](Part part, std::size_t k) {
+    const auto* found =
+        std::find_if(z + part.begin, z + part.end, [&](double h) { return !(h >= setup_.floor); });
+    if (found != z + part.end) wrong[k] = static_cast<std::size_t>(found - z);
+  });
+  if (const auto i = *std::ranges::min_element(wrong); i < grains_.moving)
+    leave_physics(i, std::isnan(z[i]) ? "its place is not a number" : "it fell through the bed");
   if (const double phi = cells_.densest_packing(); phi > densest)
     leave_physics(fmt::format(
         "grains gathered to a packing fraction of {:.2f} somewhere; above {} they are caged by their "

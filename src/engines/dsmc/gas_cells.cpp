@@ -29,6 +29,9 @@ GasCells<D>::GasCells(const Grains<D>& grains, const DsmcSetup<D>& setup, const 
                  static_cast<double>(grains.moving);
   for (std::size_t i = 0; i < grains.moving; ++i)
     mean_content_ += content<D>(grains.radius[i]) / static_cast<double>(grains.moving);
+  equal_ =
+      std::all_of(grains.radius.begin(), grains.radius.begin() + static_cast<std::ptrdiff_t>(grains.moving),
+                  [&](double R) { return R == grains.radius[0]; });
   for (int k = 0; k < D; ++k) lay(k, grains);
   add_volumes();
   cell_.resize(grains.moving), order_.resize(grains.moving);
@@ -151,13 +154,10 @@ void GasCells<D>::fill(const Grains<D>& grains, Team& team) {
     for (std::size_t i = part.begin; i < part.end; ++i)
       if (cell_[i] != outside) order_[counts_[k][cell_[i]]++] = static_cast<std::uint32_t>(i);
   });
-  const bool equal =
-      std::all_of(grains.radius.begin(), grains.radius.begin() + static_cast<std::ptrdiff_t>(grains.moving),
-                  [&](double R) { return R == grains.radius[0]; });
   const double one = setup_.weight * content<D>(grains.radius[0]);
   team.split(cells, [&](Part part, std::size_t) {
     for (std::size_t c = part.begin; c < part.end; ++c) {
-      if (equal) {
+      if (equal_) {
         content_[c] = one * static_cast<double>(members(c).size());
         continue;
       }

@@ -107,6 +107,7 @@ class GasCells {
   Vec<D> low_{}, side_{}, inverse_{};
   Index many_{};
   bool grows_ = false;  // upwards
+  bool equal_ = true;   // all grains are as large
   std::vector<double> volume_, phi_, content_;
   std::vector<double> now_, share_;  // φ of this step, and what one grain adds to it
   bool settled_ = false;             // phi_ has a past

@@ -45,14 +45,19 @@ void Columns<D>::lay(const Placed<D>& grain) {
     giants_.push_back(grain);
     return;
   }
-  std::size_t at = 0;
-  for (int k = 0; k + 1 < D; ++k)
-    at = at * static_cast<std::size_t>(count_[k]) +
-         static_cast<std::size_t>(std::clamp(index(k, grain.place[k]), 0, count_[k] - 1));
-  auto& column = columns_[at];
+  auto& column = columns_[column_at(grain.place)];
   auto where = column.end();
   while (where != column.begin() && (where - 1)->place[D - 1] > grain.place[D - 1]) --where;
   column.insert(where, grain);
+}
+
+template <int D>
+void Columns<D>::take(const Placed<D>& grain) {
+  const auto same = [&](const Placed<D>& other) { return other.id == grain.id; };
+  if (grain.radius > giant_from_)
+    std::erase_if(giants_, same);
+  else
+    std::erase_if(columns_[column_at(grain.place)], same);
 }
 
 template class Columns<2>;

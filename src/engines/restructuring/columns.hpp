@@ -41,6 +41,8 @@ class Columns {
 
   void clear();
   void lay(const Placed<D>& grain);
+  /// Takes up a grain that lies at this place.
+  void take(const Placed<D>& grain);
 
   /// visit(Placed) for all that touch a grain of radius `own` whose centre is in the ball, and some that do not.
   template <class Visit>
@@ -93,6 +95,13 @@ class Columns {
   static Placed<D> shifted(Placed<D> grain, const Vec<D>& shift) {
     for (int k = 0; k + 1 < D; ++k) grain.place[k] += shift[k];
     return grain;
+  }
+  std::size_t column_at(const Vec<D>& place) const {
+    std::size_t at = 0;
+    for (int k = 0; k + 1 < D; ++k)
+      at = at * static_cast<std::size_t>(count_[k]) +
+           static_cast<std::size_t>(std::clamp(index(k, place[k]), 0, count_[k] - 1));
+    return at;
   }
   int index(int k, double x) const { return static_cast<int>(std::floor((x - lower_[k]) / width_[k])); }
   /// visit(column, shift of its grains) for the columns that reach into a box around the place.

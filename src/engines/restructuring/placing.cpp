@@ -242,11 +242,10 @@ Rest<D> Placer<D>::rest(bool on_floor, int events) const {
 }
 
 template <int D>
-std::optional<Rest<D>> Placer<D>::place(const Vec<D>& lateral, double radius, Random& random) {
+std::optional<Rest<D>> Placer<D>::place(const Vec<D>& lateral, double radius, Random& random, double from) {
   constexpr int up = D - 1;
   place_ = lateral, radius_ = radius;
   touching_.clear();
-  double from = std::numeric_limits<double>::infinity();
   bool falls = true;
   const Touching* lost = nullptr;
   for (int event = 1; event <= most_events; ++event) {

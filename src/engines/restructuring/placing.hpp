@@ -32,9 +32,11 @@ class Placer {
   /// More events than this for one grain are an error: a path has about five.
   static constexpr int most_events = 10000;
 
-  /// The rest of a grain that falls at this lateral place. Empty if there is nothing to fall on, or no rest within
-  /// most_events. `random` decides where the way down is not unique, as exactly on top of a grain.
-  std::optional<Rest<D>> place(const Vec<D>& lateral, double radius, Random& random);
+  /// The rest of a grain that falls at this lateral place, from above all others or from this height. Empty if there is
+  /// nothing to fall on, or no rest within most_events. `random` decides where the way down is not unique, as exactly on
+  /// top of a grain.
+  std::optional<Rest<D>> place(const Vec<D>& lateral, double radius, Random& random,
+                               double from = std::numeric_limits<double>::infinity());
 
  private:
   /// One that the grain touches now.

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "engines/kind/packing.hpp"
+#include "engines/monte_carlo/monte_carlo_engine.hpp"
 
 namespace chute::restructuring {
 namespace {
@@ -52,6 +53,8 @@ template <int D>
 void RestructuringEngine<D>::shake() {
   ++step_;
   events_ = 0;
+  if (setup_.loosening && step_ > 1) loosen();
+  const bool cooperative = setup_.stabilise == Stabilise::cooperative && step_ > 1;
   columns_.clear();
   for (std::size_t j = grains_.moving; j < grains_.size(); ++j)
     columns_.lay({grains_.place(j), grains_.radius[j], static_cast<std::int32_t>(j)});
@@ -63,11 +66,46 @@ void RestructuringEngine<D>::shake() {
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
       return height[a] != height[b] ? height[a] < height[b] : a < b;
     });
-  for (const auto i : order) lay(i);
+  const auto as_it_lies = [&](std::size_t i) {
+    return Placed<D>{grains_.place(i), grains_.radius[i], static_cast<std::int32_t>(i)};
+  };
+  if (cooperative)
+    for (const auto i : order) columns_.lay(as_it_lies(i));
+  for (const auto i : order) {
+    if (cooperative) columns_.take(as_it_lies(i));
+    lay(i, cooperative ? height[i] : std::numeric_limits<double>::infinity());
+  }
 }
 
 template <int D>
-void RestructuringEngine<D>::lay(std::size_t i) {
+void RestructuringEngine<D>::loosen() {
+  // Grains that touch do so up to rounding, and hard ones must not overlap by an ulp.
+  constexpr double rounding = 1e-9;
+  constexpr std::int64_t between_looks = 5;
+  const auto& how = *setup_.loosening;
+  monte_carlo::MonteCarloSetup<D> moves{setup_.surroundings()};
+  moves.seed = setup_.seed + (static_cast<std::uint64_t>(step_) << 32);  // other numbers in every shake
+  moves.step = how.step;
+  auto grains = grains_;
+  for (auto& radius : grains.radius) radius *= 1 - rounding;
+  auto& z = grains.position[D - 1];
+  for (std::size_t i = 0; i < grains.moving; ++i) z[i] *= 1 + how.expand;
+  monte_carlo::MonteCarloEngine<D> mover(std::move(grains), moves);
+  const auto fraction = [&] {
+    return engines::packing_of(mover.state(), setup_.domain, setup_.frame).fraction;
+  };
+  loosened_ = fraction();
+  for (std::int64_t done = 0; done < how.sweeps && !(loosened_ >= how.density);) {
+    done = std::min(how.sweeps, done + between_looks);
+    mover.advance_to(done);
+    loosened_ = fraction();
+  }
+  grains_.position = mover.state().position;
+  grains_.wraps = mover.state().wraps;
+}
+
+template <int D>
+void RestructuringEngine<D>::lay(std::size_t i, double from) {
   Random random(setup_.seed, Purpose::engine, i, static_cast<std::uint64_t>(step_));
   Vec<D> place = grains_.place(i);
   const auto& domain = setup_.domain;
@@ -77,7 +115,7 @@ void RestructuringEngine<D>::lay(std::size_t i) {
       place[k] = domain.lower[k] + (setup_.rain == Rain::line ? random.uniform() : 0.5) * length;
     if (setup_.jolt > 0) place[k] += random.uniform(-setup_.jolt, setup_.jolt);
   }
-  const auto rest = placer_.place(place, grains_.radius[i], random);
+  const auto rest = placer_.place(place, grains_.radius[i], random, from);
   if (!rest)
     leave_physics(i,
                   fmt::format("it found no rest: it fell through the bed, or its way has more than {} events",
@@ -109,6 +147,13 @@ EnergyAccount RestructuringEngine<D>::energy() const {
   return e;
 }
 
+/// A cooperative grain may have gone on since another was laid on it.
+template <int D>
+bool RestructuringEngine<D>::still_touch(double way, double reach) const {
+  constexpr double slack = 1e-8;
+  return setup_.stabilise == Stabilise::sequential || way < (1 + slack) * reach;
+}
+
 template <int D>
 std::vector<Contact> RestructuringEngine<D>::contacts() const {
   std::vector<Contact> list;
@@ -128,6 +173,9 @@ std::vector<Contact> RestructuringEngine<D>::contacts() const {
         contact.a = static_cast<std::int64_t>(a), contact.b = static_cast<std::int64_t>(b);
       }
       const Vec<D> n = (1 / norm(way)) * way;
+      if (!still_touch(norm(way),
+                       own + (is_wall(other) ? 0 : grains_.radius[static_cast<std::size_t>(contact.b)])))
+        continue;
       contact.branch = as_file_vector(way);
       contact.normal = as_file_vector(n);
       contact.point = as_file_vector(grains_.place(static_cast<std::size_t>(contact.a)) + own * n);
@@ -143,29 +191,28 @@ std::vector<std::pair<std::string, double>> RestructuringEngine<D>::tells() cons
   const auto packing = engines::packing_of(grains_, setup_.domain, setup_.frame);
   // Each contact counts for both of its grains; one with the bed or the floor for one.
   std::int64_t ends = 0;
-  for (const auto& supports : supports_)
-    for (int s = 0; s < supports.count; ++s) {
-      const auto other = supports.id[static_cast<std::size_t>(s)];
-      ends += other >= 0 && other < static_cast<std::int64_t>(grains_.moving) ? 2 : 1;
-    }
+  for (const auto& contact : contacts())
+    ends += contact.b >= 0 && contact.b < static_cast<std::int64_t>(grains_.moving) ? 2 : 1;
   const auto n = static_cast<double>(grains_.moving);
-  return {{"packing_fraction", packing.fraction},
-          {"mean_height", packing.mean_height},
-          {"tracer", packing.tracer},
-          {"coordination", static_cast<double>(ends) / n},
-          {"events", static_cast<double>(events_) / n}};
+  std::vector<std::pair<std::string, double>> list{{"packing_fraction", packing.fraction},
+                                                   {"mean_height", packing.mean_height},
+                                                   {"tracer", packing.tracer},
+                                                   {"coordination", static_cast<double>(ends) / n},
+                                                   {"events", static_cast<double>(events_) / n}};
+  if (setup_.loosening) list.emplace_back("loosened_fraction", loosened_);
+  return list;
 }
 
 template <int D>
 void RestructuringEngine<D>::save(std::ostream& out) const {
   cereal::PortableBinaryOutputArchive archive(out);
-  archive(step_, events_, grains_, supports_);
+  archive(step_, events_, grains_, supports_, loosened_);
 }
 
 template <int D>
 void RestructuringEngine<D>::restore(std::istream& in) {
   cereal::PortableBinaryInputArchive archive(in);
-  archive(step_, events_, grains_, supports_);
+  archive(step_, events_, grains_, supports_, loosened_);
 }
 
 template class RestructuringEngine<2>;

@@ -11,12 +11,29 @@ namespace chute::restructuring {
 /// Where new grains come from in the first shake.
 enum class Rain { none, line, point };
 
+/// What loosens a packing before it is laid anew (Mehta & Barker, PRL 67, 394, 1991): heights are stretched, and then grains
+/// move at random, sideways and down but never up, as in the Monte Carlo method without a temperature, until the packing
+/// is as dense as asked or has moved so often. The random shifts sideways that the paper makes with the expansion are among
+/// these moves.
+struct Loosening {
+  double expand = 0;         ///< ε: heights above 0 times 1 + ε
+  double density = 1;        ///< the moves end at this packing fraction of the bulk …
+  std::int64_t sweeps = 50;  ///< … or after so many sweeps, each of one trial a grain
+  double step = 0.1;         ///< the longest trial move; a length
+};
+
+/// Whom a grain lies on when it is laid: those that lie already; or all others where they are now, so that it can rest on
+/// one that goes on later (the last stage of Mehta & Barker), and what was no arch before can become one.
+enum class Stabilise { sequential, cooperative };
+
 /// What a run needs besides its grains.
 template <int D>
 struct RestructuringSetup : Surroundings<D> {
   std::uint64_t seed = 1;
   Rain rain = Rain::none;
   double jolt = 0;  ///< largest lateral shift of a grain in each direction before it falls; a length
+  std::optional<Loosening> loosening{};         ///< before every shake but the first
+  Stabilise stabilise = Stabilise::sequential;  ///< from the second shake on
 };
 
 /// Bottom-to-top restructuring, thesis 2.3: in every shake all grains are taken up and laid again one by one, in the order
@@ -47,7 +64,9 @@ class RestructuringEngine final : public Engine {
  private:
   void advance(std::int64_t step) override;
   void shake();
-  void lay(std::size_t i);
+  void loosen();
+  void lay(std::size_t i, double from);
+  bool still_touch(double way, double reach) const;
 
   struct Supports {
     std::array<std::int64_t, D + 1> id{};
@@ -66,6 +85,8 @@ class RestructuringEngine final : public Engine {
   std::vector<Supports> supports_;
   std::array<Array, D> start_place_, no_force_;
   std::int64_t step_ = 0, events_ = 0;  // events of the last shake
+  double loosened_ =
+      std::numeric_limits<double>::quiet_NaN();  // φ before grains were laid, in the last shake
 };
 
 }  // namespace chute::restructuring

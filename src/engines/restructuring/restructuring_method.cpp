@@ -10,6 +10,11 @@ std::unique_ptr<Engine> made(World<D> world, const RestructuringMethod& method,
   setup.seed = setting.seed;
   setup.rain = method.rain;
   setup.jolt = method.jolt * setting.mean_diameter;
+  setup.stabilise = method.stabilise;
+  if (method.loosening.expand > 0) {
+    setup.loosening = method.loosening;
+    setup.loosening->step *= setting.mean_diameter;
+  }
   return std::make_unique<RestructuringEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -28,7 +33,10 @@ std::vector<Fact> RestructuringMethod::facts(const engines::Setting& s) const {
 
 double RestructuringMethod::seconds_per_step(const engines::Setting& s) const {
   constexpr double seconds_2d = 1e-6, seconds_3d = 5e-6;  // to lay a grain
-  return static_cast<double>(s.grains) * (s.dimensions == 2 ? seconds_2d : seconds_3d);
+  constexpr double move_2d = 7e-8, move_3d = 1.5e-7;      // a trial move before
+  const double moves = loosening.expand > 0 ? static_cast<double>(loosening.sweeps) : 0;
+  return static_cast<double>(s.grains) *
+         (s.dimensions == 2 ? seconds_2d + moves * move_2d : seconds_3d + moves * move_3d);
 }
 
 std::unique_ptr<Engine> RestructuringMethod::make(World<2> world, const engines::Setting& setting,

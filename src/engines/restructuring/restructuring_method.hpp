@@ -14,6 +14,9 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
   Rain rain = Rain::none;
   static constexpr std::array<std::string_view, 3> rains{"none", "line", "point"};
   double jolt = 0;
+  Stabilise stabilise = Stabilise::sequential;
+  static constexpr std::array<std::string_view, 2> stabilises{"sequential", "cooperative"};
+  Loosening loosening;  ///< its step in mean diameters
 
   template <class Archive>
   void describe(Archive& a) {
@@ -23,6 +26,16 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
         "their heights; from random places; from one point");
     a.value("jolt", jolt, between(0, 10),
             "largest random shift sideways before a grain falls, in mean diameters");
+    a.choice(
+        "stabilise", stabilise, stabilises,
+        "from the second shake on: a grain is laid on those that lie already; or among all, where they are now");
+    a.value(
+        "expand", loosening.expand, between(0, 10),
+        "before every shake but the first heights are stretched by this part, and grains moved at random (Mehta and "
+        "Barker)");
+    a.value("density", loosening.density, between(0, 1), "these moves end at this packing fraction");
+    a.value("sweeps", loosening.sweeps, non_negative, "and after so many trials a grain");
+    a.value("step", loosening.step, positive, "longest of these moves, in mean diameters");
   }
   Offers offers() const override {
     return {.contacts = true, .walls = true, .only_floor = true, .clock = "shakes"};
