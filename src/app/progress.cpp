@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -33,11 +34,16 @@ void Progress::show(double part, const std::string& rate) {
   const double seconds = std::chrono::duration<double>(now - begin_).count();
   const double gone = part - begin_part_;
   const auto left = gone > 0 && part < 1 ? duration_text(seconds * (1 - part) / gone) + " left" : "";
-  const auto line = fmt::format("{}: {:3.0f} %  {}  {}", what_, 100 * part, rate, left);
-  if (terminal_)
-    fmt::print(stderr, "\r\x1b[K{}", line);
-  else
-    fmt::print(stderr, "{}\n", line);
+  if (terminal_) {
+    constexpr int width = 24;
+    const int full = std::clamp(static_cast<int>(std::lround(width * part)), 0, width);
+    std::string bar;
+    for (int i = 0; i < width; ++i) bar += i < full ? "█" : "░";
+    fmt::print(stderr, "\r\x1b[K{} {} {:3.0f} %  {}{}{}", what_, bar, 100 * part, rate,
+               rate.empty() ? "" : "  ", left);
+  } else {
+    fmt::print(stderr, "{}: {:3.0f} %  {}  {}\n", what_, 100 * part, rate, left);
+  }
   std::fflush(stderr);
 }
 
