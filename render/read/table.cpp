@@ -5,21 +5,25 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "read/iso_time.hpp"
 #include "read/number.hpp"
 
 namespace chute::read {
 namespace {
 
-/// The cell that starts `rest`, which then starts behind the comma. False if a quote does not end.
-bool take_cell(std::string_view& rest, std::string& cell, bool& last) {
+/// The cell that starts `rest`, which then starts behind the separator. False if a quote does not end.
+bool take_cell(std::string_view& rest, char separator, std::string& cell, bool& last) {
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
   cell.clear();
   if (rest.empty() || rest.front() != '"') {
-    const auto comma = rest.find(',');
+    const auto comma = rest.find(separator);
     cell = trimmed(rest.substr(0, comma));
     last = comma == std::string_view::npos;
     rest.remove_prefix(last ? rest.size() : comma + 1);
@@ -32,7 +36,7 @@ bool take_cell(std::string_view& rest, std::string& cell, bool& last) {
       cell += rest[i++];
     } else {
       rest.remove_prefix(i + 1);
-      const auto comma = rest.find(',');
+      const auto comma = rest.find(separator);
       if (!trimmed(rest.substr(0, comma)).empty()) return false;
       last = comma == std::string_view::npos;
       rest.remove_prefix(last ? rest.size() : comma + 1);
@@ -43,11 +47,43 @@ bool take_cell(std::string_view& rest, std::string& cell, bool& last) {
 }
 
 /// The cells of a line. False if a quote does not end.
-bool take_cells(std::string_view line, std::vector<std::string>& cells) {
+bool take_cells(std::string_view line, char separator, std::vector<std::string>& cells) {
   cells.clear();
   for (bool last = false; !last;)
-    if (!take_cell(line, cells.emplace_back(), last)) return false;
+    if (!take_cell(line, separator, cells.emplace_back(), last)) return false;
   return true;
+}
+
+/// A number of a table's cell: where `;` separates, a comma may stand for the point.
+std::optional<double> number_of(const std::string& cell, char separator) {
+  const auto comma = separator == ';' ? cell.find(',') : std::string::npos;
+  if (comma == std::string::npos || cell.find('.') != std::string::npos) return number_in(cell);
+  std::string pointed = cell;
+  pointed[comma] = '.';
+  return number_in(pointed);
+}
+
+/// What stands between the cells of the first two lines that are no comments: a comma if it divides both into as many, more
+/// than one; else `;` if that does.
+char separator_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty() && lines.size() < 2) {
+    const auto end = text.find('\n');
+    const auto line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (!line.empty() && line.front() != '#') lines.push_back(line);
+  }
+  const auto divides = [&](char separator) {
+    std::size_t count = 0;
+    for (const auto line : lines) {
+      std::vector<std::string> cells;
+      if (!take_cells(line, separator, cells) || cells.size() < 2 || (count && cells.size() != count))
+        return false;
+      count = cells.size();
+    }
+    return count > 1;
+  };
+  return !divides(',') && divides(';') ? ';' : ',';
 }
 
 /// What programs write where a number is not known.
@@ -58,16 +94,18 @@ bool is_gap(std::string_view cell) {
   return std::find(std::begin(gaps), std::end(gaps), lower) != std::end(gaps);
 }
 
-bool all_numbers(const std::vector<std::string>& cells) {
+bool all_numbers(const std::vector<std::string>& cells, char separator) {
   return std::all_of(cells.begin(), cells.end(),
-                     [](const std::string& cell) { return number_in(cell) || is_gap(cell); });
+                     [&](const std::string& cell) { return number_of(cell, separator) || is_gap(cell); });
 }
 
 /// numpy and gnuplot write the names of columns as a comment: the last one before numbers that has a name for each.
 bool take_commented_header(Table& table, std::size_t columns) {
   for (auto comment = table.comments.rbegin(); comment != table.comments.rend(); ++comment) {
     std::vector<std::string> names;
-    if (!take_cells(*comment, names) || names.size() != columns || all_numbers(names)) continue;
+    if (!take_cells(*comment, table.separator, names) || names.size() != columns ||
+        all_numbers(names, table.separator))
+      continue;
     if (std::find(names.begin(), names.end(), "") != names.end()) continue;
     table.comments.erase(std::next(comment).base());
     table.header = std::move(names);
@@ -92,6 +130,7 @@ Table parse_table(std::string_view text, const std::filesystem::path& name) {
   };
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  table.separator = separator_of(text);
   while (!text.empty()) {
     ++number;
     const auto end = text.find('\n');
@@ -103,8 +142,9 @@ Table parse_table(std::string_view text, const std::filesystem::path& name) {
       continue;
     }
     std::vector<std::string> cells;
-    if (!take_cells(line, cells)) fail("a quoted cell does not end as it should");
-    if (table.header.empty() && all_numbers(cells) && take_commented_header(table, cells.size())) {
+    if (!take_cells(line, table.separator, cells)) fail("a quoted cell does not end as it should");
+    if (table.header.empty() && all_numbers(cells, table.separator) &&
+        take_commented_header(table, cells.size())) {
       refuse_twins();
     } else if (table.header.empty()) {
       table.header = std::move(cells);
@@ -143,7 +183,7 @@ std::vector<double> Table::column(std::string_view name) const {
   values.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string& cell = rows[i][at];
-    const auto value = number_in(cell);
+    const auto value = number_of(cell, separator);
     if (!value && !is_gap(cell))
       throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number", file.string(), lines[i], name, cell));
     values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -154,7 +194,7 @@ std::vector<double> Table::column(std::string_view name) const {
 bool Table::is_number(std::string_view name) const {
   const auto at = index(name);
   return std::all_of(rows.begin(), rows.end(),
-                     [&](const auto& row) { return number_in(row[at]) || is_gap(row[at]); });
+                     [&](const auto& row) { return number_of(row[at], separator) || is_gap(row[at]); });
 }
 
 std::vector<std::string> Table::text(std::string_view name) const {
@@ -163,6 +203,37 @@ std::vector<std::string> Table::text(std::string_view name) const {
   values.reserve(rows.size());
   for (const auto& row : rows) values.push_back(row[at]);
   return values;
+}
+
+ColumnSummary Table::summary(std::string_view name) const {
+  const auto at = index(name);
+  ColumnSummary found;
+  std::set<std::string_view> different;
+  bool numbers = true, times = true;
+  for (const auto& row : rows) {
+    const std::string& cell = row[at];
+    different.insert(cell);
+    const auto number = number_of(cell, separator);
+    if (is_gap(cell) || (number && std::isnan(*number))) {
+      ++found.gaps;
+      continue;
+    }
+    const auto time = iso_time(cell);
+    numbers = numbers && number, times = times && time;
+    const auto value = number ? number : time;
+    if (!value) continue;
+    if (!(*value >= found.low)) found.low = *value, found.low_text = cell;
+    if (!(*value <= found.high)) found.high = *value, found.high_text = cell;
+  }
+  found.different = different.size();
+  const bool nothing = found.gaps == rows.size();
+  found.type = numbers             ? ColumnSummary::Type::number
+               : times && !nothing ? ColumnSummary::Type::time
+                                   : ColumnSummary::Type::text;
+  if (found.type == ColumnSummary::Type::text)
+    found.gaps = static_cast<std::size_t>(
+        std::count_if(rows.begin(), rows.end(), [&](const auto& row) { return row[at].empty(); }));
+  return found;
 }
 
 }  // namespace chute::read

@@ -1,10 +1,21 @@
 #pragma once
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace chute::read {
+
+/// What a column of a table holds.
+struct ColumnSummary {
+  enum class Type { number, time, text } type = Type::text;  ///< time: dates and times of day after ISO 8601
+  std::size_t gaps = 0;                                      ///< rows without a value; of texts, empty ones
+  std::size_t different = 0;                                 ///< cells that differ
+  /// Of numbers, and of times as seconds since 1970 in universal time; not a number where nothing is known.
+  double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
+  std::string low_text, high_text;  ///< as they stand in the table
+};
 
 /// A CSV file: comment lines, one header line, rows of cells as text.
 struct Table {
@@ -13,6 +24,7 @@ struct Table {
   std::vector<std::string> header;             ///< column names
   std::vector<std::vector<std::string>> rows;  ///< each as long as `header`
   std::vector<std::size_t> lines;              ///< of each row in the file, from 1
+  char separator = ',';                        ///< of cells; behind `;` numbers may have decimal commas
 
   bool has(std::string_view name) const;
   /// A column as numbers; an empty cell, N/A, NA, NaN, null or a dash is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column
@@ -22,11 +34,13 @@ struct Table {
   bool is_number(std::string_view name) const;
   /// A column as it stands.
   std::vector<std::string> text(std::string_view name) const;
+  ColumnSummary summary(std::string_view name) const;
   /// Index of a column; InputError if there is none of that name.
   std::size_t index(std::string_view name) const;
 };
 
-/// Reads comma-separated values. Lines that start with `#` are comments, the first other line is the header,
+/// Reads comma-separated values, or such with `;` between cells where that, and no comma, divides the header and the first row
+/// into as many cells: numbers may then have decimal commas. Lines that start with `#` are comments, the first other line is the header,
 /// or, where that is of numbers, the last comment before it that names as many columns (numpy.savetxt); a byte order mark
 /// and empty lines are skipped, cells may stand in double quotes, with a quote in them doubled. InputError
 /// `FILE:LINE: …` for a row with more or fewer cells than the header, a quote that does not end, a column

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/input.hpp"
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
@@ -49,7 +50,9 @@ static void describe(TomlReader& a, Recipe& recipe) {
 namespace {
 
 Recipe read_recipe(const fs::path& file) {
-  const auto table = parse_toml(read_file(file), file.string());
+  // A recipe on standard input can be read once, and this is the one place that reads recipes.
+  const auto text = file == standard_input_name ? read_input(standard_input).text : read_file(file);
+  const auto table = parse_toml(text, file.string());
   TomlReader reader(table, file.string());
   Recipe recipe;
   recipe.plot.source = file.string();
@@ -140,6 +143,7 @@ std::vector<KnownFigure> known_figures() {
 }
 
 fs::path find_recipe(const std::string& name) {
+  if (name == standard_input) return standard_input_name;
   if (name.ends_with(".toml")) return name;  // read_recipe says if it cannot be read
   std::vector<std::string> ids;
   for (const auto& figure : known_figures()) {

@@ -16,7 +16,7 @@ struct KnownFigure {
 /// All figure recipes that come with chute, ordered by id.
 std::vector<KnownFigure> known_figures();
 
-/// The recipe of an id, or the file of that name. InputError, with the nearest id, if there is none.
+/// The recipe of an id, or the file of that name; of `-` the name that stands for standard input. InputError, with the nearest id, if there is none.
 std::filesystem::path find_recipe(const std::string& name);
 
 /// Makes DIR/ID.csv, .png, .pdf and .svg from a recipe.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/say.hpp"
@@ -34,11 +35,15 @@ void Progress::show(double part, const std::string& rate) {
   const double seconds = std::chrono::duration<double>(now - begin_).count();
   const double gone = part - begin_part_;
   const auto left = gone > 0 && part < 1 ? duration_text(seconds * (1 - part) / gone) + " left" : "";
-  const auto line = fmt::format("{}: {:3.0f} %  {}  {}", what_, 100 * part, rate, left);
-  if (terminal_)
-    tell("\r\x1b[K{}", line);
-  else
-    tell("{}\n", line);
+  if (terminal_) {
+    constexpr int width = 24;
+    const int full = std::clamp(static_cast<int>(std::lround(width * part)), 0, width);
+    std::string bar;
+    for (int i = 0; i < width; ++i) bar += i < full ? "█" : "░";
+    tell("\r\x1b[K{} {} {:3.0f} %  {}{}{}", what_, bar, 100 * part, rate, rate.empty() ? "" : "  ", left);
+  } else {
+    tell("{}: {:3.0f} %  {}  {}\n", what_, 100 * part, rate, left);
+  }
 }
 
 }  // namespace chute::app

@@ -4,8 +4,8 @@
 
 namespace chute::app {
 
-/// One line on standard error that tells how far long work is: rewritten in place on a terminal, a line every
-/// half minute elsewhere, nothing when quiet.
+/// One line on standard error that tells how far long work is, and how long it will still take: a bar on a terminal, rewritten
+/// in place and without colours; a line every half minute elsewhere; nothing when quiet.
 class Progress {
  public:
   Progress(std::string what, bool quiet);

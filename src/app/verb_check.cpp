@@ -1,8 +1,13 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/input.hpp"
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
+#include "common/toml_reader.hpp"
 #include "experiments/experiment.hpp"
 #include "run/facts.hpp"
 #include "run/session.hpp"
@@ -11,32 +16,56 @@
 namespace chute::app {
 namespace {
 
-void check(const std::string& file, const std::vector<std::string>& settings) {
-  std::string resolved;
+/// A scene as a run would take it, and what follows from it.
+struct Checked {
+  std::string name, resolved;
   std::vector<Fact> facts;
   std::vector<std::string> warnings;
-  if (experiments::is_experiment(file)) {
-    const auto experiment = experiments::read_experiment(file, settings);
-    resolved = to_toml(experiment), facts = experiments::facts(experiment);
-  } else if (const sweep::Base base{file, settings}; sweep::is_sweep(base)) {
+};
+
+Checked check(const std::string& file, const std::vector<std::string>& settings) {
+  const auto input = read_input(file);
+  Checked found{input.name, {}, {}, {}};
+  const sweep::Base base{input.name, settings, input.text};
+  if (experiments::is_experiment(input.text, input.name)) {
+    const auto experiment = experiments::parse_experiment(input.text, input.name, settings);
+    found.resolved = to_toml(experiment), found.facts = experiments::facts(experiment);
+  } else if (sweep::is_sweep(base)) {
     const auto spec = sweep::read_sweep(base);
     const auto places = sweep::grid(spec.axes);
     for (const auto& place : places) run::Session(base.scene(place.set), 1);
-    resolved = sweep::to_toml(base, spec), facts = run::facts(base.scene(places.front().set));
-    facts.push_back(
+    found.resolved = sweep::to_toml(base, spec), found.facts = run::facts(base.scene(places.front().set));
+    found.facts.push_back(
         {"places", static_cast<double>(places.size()), "", "places of the grid; the rest is of the first"});
   } else {
-    const auto scene = scene::read_scene(file, settings);
+    const auto scene = scene::parse_scene(input.text, input.name, settings);
     const run::Session refuses_what_a_run_would(scene, 1);
-    resolved = to_toml(scene), facts = run::facts(scene), warnings = run::warnings(scene);
+    found.resolved = to_toml(scene), found.facts = run::facts(scene), found.warnings = run::warnings(scene);
   }
-  fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", file, resolved);
-  for (const auto& fact : facts) {
+  return found;
+}
+
+void show(const Checked& found) {
+  fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", found.name, found.resolved);
+  for (const auto& fact : found.facts) {
     const auto value =
         fact.name == "cost" ? duration_text(fact.value) : fmt::format("{:.6g} {}", fact.value, fact.unit);
     fmt::print("# {:<16} {:<26} {}\n", fact.name, value, fact.meaning);
   }
-  for (const auto& warning : warnings) fmt::print("# warning: {}\n", warning);
+  for (const auto& warning : found.warnings) fmt::print("# warning: {}\n", warning);
+}
+
+nlohmann::ordered_json as_json(const Checked& found) {
+  std::ostringstream scene;
+  scene << toml::json_formatter{parse_toml(found.resolved, found.name)};
+  auto facts = nlohmann::ordered_json::array();
+  for (const auto& fact : found.facts)
+    facts.push_back(
+        {{"name", fact.name}, {"value", fact.value}, {"unit", fact.unit}, {"meaning", fact.meaning}});
+  return {{"file", found.name},
+          {"scene", nlohmann::ordered_json::parse(scene.str())},
+          {"facts", facts},
+          {"warnings", found.warnings}};
 }
 
 }  // namespace
@@ -45,18 +74,27 @@ void add_check(CLI::App& app) {
   auto* verb = app.add_subcommand("check", "Validate scenes; print each complete, with what follows from it");
   struct Arguments {
     std::vector<std::string> scenes, settings;
-    bool keys = false;
+    bool keys = false, json = false;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_option("scenes", a->scenes, "scene files (TOML)");
+  verb->add_option("scenes", a->scenes, "scene files (TOML); -: standard input");
   verb->add_flag("--keys", a->keys, "print every key that a scene can have, with what it means");
+  verb->add_flag("--json", a->json, "for programs: keys as in README.md");
   verb->add_option("--set", a->settings, "change a key: --set grains.count=100")->allow_extra_args(false);
   verb->footer("Example: chute check scenes/chute-2d.toml");
   verb->callback([a] {
     if (a->keys) fmt::print("{}", scene::keys_table());
     if (!a->keys && a->scenes.empty())
       throw InputError("check: name a scene file, or --keys for what can stand in one");
-    for (const auto& file : a->scenes) check(file, a->settings);
+    auto all = nlohmann::ordered_json::array();
+    for (const auto& file : a->scenes) {
+      const auto found = check(file, a->settings);
+      if (a->json)
+        all.push_back(as_json(found));
+      else
+        show(found);
+    }
+    if (a->json) fmt::print("{}\n", nlohmann::ordered_json{{"scenes", all}}.dump(2));
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +21,7 @@ struct CompareArguments {
   std::string expected, difference;
   std::vector<std::string> actual;
   int tolerance = image::strict.channel;
+  bool json = false;
 };
 
 /// Pictures of one name, and where the difference goes, if it is wanted.
@@ -69,21 +71,46 @@ std::vector<Pair> pairs_of(const CompareArguments& a) {
   return pairs;
 }
 
-/// Prints the numbers; true if the pictures are the same.
-bool is_same(const Pair& pair, const image::Tolerance& tolerance, bool both_must_be) {
+/// What came of a pair.
+struct Outcome {
+  std::string name, missing;  ///< the file that is not there, if one is not
+  image::Comparison numbers;
+  bool same() const { return missing.empty() && numbers.passes; }
+};
+
+Outcome compare(const Pair& pair, const image::Tolerance& tolerance, bool both_must_be) {
   for (const auto* file : {&pair.expected, &pair.actual})
-    if (!both_must_be && !fs::exists(*file)) {
-      fmt::print("{}: missing: {}\n", pair.name, file->string());
-      return false;
-    }
+    if (!both_must_be && !fs::exists(*file)) return {pair.name, file->string(), {}};
   const auto before = image::read_png(pair.expected), after = image::read_png(pair.actual);
   const auto result = image::compare(before, after, tolerance);
-  fmt::print("{}: {}\n", pair.name, result.summary());
   if (pair.difference && !result.passes) {
     if (pair.difference->has_parent_path()) fs::create_directories(pair.difference->parent_path());
     image::write_png(*pair.difference, image::difference(before, after));
   }
-  return result.passes;
+  return {pair.name, "", result};
+}
+
+void show(const Outcome& outcome) {
+  if (outcome.missing.empty())
+    fmt::print("{}: {}\n", outcome.name, outcome.numbers.summary());
+  else
+    fmt::print("{}: missing: {}\n", outcome.name, outcome.missing);
+}
+
+nlohmann::ordered_json as_json(const Outcome& outcome) {
+  nlohmann::ordered_json json{{"name", outcome.name}, {"same", outcome.same()}};
+  if (!outcome.missing.empty()) {
+    json["missing"] = outcome.missing;
+    return json;
+  }
+  const auto& n = outcome.numbers;
+  json["expected_size"] = {n.expected_width, n.expected_height};
+  json["actual_size"] = {n.actual_width, n.actual_height};
+  if (!n.same_size) return json;
+  json["pixels"] = n.pixels, json["differing"] = n.differing, json["over"] = n.over;
+  json["worst"] = n.worst, json["worst_at"] = {n.worst_x, n.worst_y};
+  json["rms"] = n.rms, json["ssim"] = n.ssim;
+  return json;
 }
 
 void run(const CompareArguments& a) {
@@ -91,8 +118,17 @@ void run(const CompareArguments& a) {
   tolerance.channel = a.tolerance;
   const auto pairs = pairs_of(a);
   std::size_t different = 0;
-  for (const auto& pair : pairs)
-    if (!is_same(pair, tolerance, !fs::is_directory(a.expected))) ++different;
+  auto pictures = nlohmann::ordered_json::array();
+  for (const auto& pair : pairs) {
+    const auto outcome = compare(pair, tolerance, !fs::is_directory(a.expected));
+    if (!outcome.same()) ++different;
+    if (a.json)
+      pictures.push_back(as_json(outcome));
+    else
+      show(outcome);
+  }
+  if (a.json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"pictures", pictures}, {"different", different}}.dump(2));
   if (!different) return;
   if (pairs.size() == 1) throw WorkError(fmt::format("{} differs from {}", a.actual[0], a.expected));
   throw WorkError(fmt::format("{} of {} pictures differ", different, pairs.size()));
@@ -116,6 +152,7 @@ void add_compare(CLI::App& app) {
                    "largest difference of a colour channel, of 255, that still counts as same")
       ->check(CLI::Range(0, 255))
       ->capture_default_str();
+  verb->add_flag("--json", a->json, "for programs: keys as in README.md");
   verb->footer(
       "Exit status: 0 same, 1 different, 2 a file is wrong.\n"
       "Example: chute compare golden/fig-4-10.png out/figures/fig-4-10.png --diff difference.png\n"

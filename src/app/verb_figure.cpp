@@ -56,7 +56,8 @@ void add_figure(CLI::App& app) {
   auto* verb =
       app.add_subcommand("figure", "Make figures: simulate what they need, write PNG, PDF, SVG and CSV");
   auto a = std::make_shared<FigureArguments>();
-  verb->add_option("figures", a->figures, "ids such as fig-4-10, recipe files (TOML), or all");
+  verb->add_option("figures", a->figures,
+                   "ids such as fig-4-10, recipe files (TOML), all, or - for a recipe on standard input");
   verb->add_option("-o,--output", a->directory, "folder for the results")->capture_default_str();
   verb->add_flag("--quick", a->quick, "a cheaper simulation: shorter, fewer points");
   verb->add_flag("--list", a->list, "list the figures that are known");

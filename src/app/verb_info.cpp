@@ -1,19 +1,12 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <set>
 
+#include "app/description.hpp"
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
-#include "common/fields.hpp"
 #include "io/checkpoint_file.hpp"
-#include "read/table.hpp"
-#include "read/vtk_points.hpp"
 #include "run/flow.hpp"
 #include "run/record.hpp"
 
@@ -21,61 +14,49 @@ namespace chute::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 /// "min … max" of what is known.
-std::string span_text(const std::vector<double>& values) {
-  double low = INFINITY, high = -INFINITY;
-  for (double v : values)
-    if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
-  return low > high ? "nothing known" : fmt::format("{:.6g} … {:.6g}", low, high);
+std::string span_text(const Json& range) {
+  if (!range.is_array()) return "nothing known";
+  return fmt::format("{:.6g} … {:.6g}", range[0].get<double>(), range[1].get<double>());
 }
 
-/// How much of a column of words there is.
-std::string text_span(const std::vector<std::string>& values) {
-  const std::set<std::string> different(values.begin(), values.end());
-  return values.empty() ? "text" : fmt::format("text, {} different", different.size());
-}
+std::string text_of(const Json& value) { return value.get<std::string>(); }
 
-/// The unit of an array that chute's own files have, in the units that the file names.
-std::string unit_of(const std::string& name, const std::string& units) {
-  const auto look = [&](const auto& known) -> std::string {
-    for (const auto& field : known)
-      if (field.name == name) return std::string(units == "SI" ? field.si_unit : field.reduced);
-    return "";
-  };
-  for (const auto& unit :
-       {look(fields::grain_fields), look(fields::impact_fields), look(fields::contact_fields)})
-    if (!unit.empty()) return unit;
-  return "";
-}
-
-void show_arrays(const char* where, const std::vector<read::PointArray>& arrays, const std::string& units) {
-  for (const auto& array : arrays)
-    fmt::print("  {:<6} {:<18} {} component{}  {} {}\n", where, array.name, array.components,
-               array.components == 1 ? " " : "s", span_text(array.values), unit_of(array.name, units));
-}
-
-void show_vtk(const fs::path& path) {
-  const auto points = read::parse_vtk(read::read_parts(path));
-  fmt::print("{}: {} points, {} lines and polygons\n", path.string(), points.x.size(), points.cells.size());
-  fmt::print("  place  x {}   y {}   z {}\n", span_text(points.x), span_text(points.y), span_text(points.z));
-  std::string units;
-  for (const auto& [name, text] : points.field_texts)
-    if (name == fields::units) units = text;
-  show_arrays("point", points.point_arrays, units);
-  show_arrays("cell", points.cell_arrays, units);
-  show_arrays("field", points.field_arrays, units);
-  for (const auto& [name, text] : points.field_texts) fmt::print("  field  {:<18} {}\n", name, text);
-}
-
-void show_table(const fs::path& path) {
-  const auto table = read::read_table(path);
-  for (const auto& comment : table.comments) fmt::print("# {}\n", comment);
-  fmt::print("{}: {} rows\n", path.string(), table.rows.size());
-  for (const auto& name : table.header) {
-    fmt::print("  {:<18} {}\n", name,
-               table.is_number(name) ? span_text(table.column(name)) : text_span(table.text(name)));
+void show_vtk(const Json& file) {
+  fmt::print("{}: {} points, {} lines and polygons\n", text_of(file["file"]),
+             file["points"].get<std::size_t>(), file["cells"].get<std::size_t>());
+  fmt::print("  place  x {}   y {}   z {}\n", span_text(file["x"]), span_text(file["y"]),
+             span_text(file["z"]));
+  for (const auto& array : file["arrays"]) {
+    const int components = array["components"];
+    fmt::print("  {:<6} {:<18} {} component{}  {} {}\n", text_of(array["where"]), text_of(array["name"]),
+               components, components == 1 ? " " : "s", span_text(array["range"]), text_of(array["unit"]));
   }
+  for (const auto& [name, text] : file["texts"].items())
+    fmt::print("  field  {:<18} {}\n", name, text_of(text));
+}
+
+/// Type, range and gaps of a column.
+std::string column_text(const Json& column) {
+  const auto type = text_of(column["type"]);
+  std::string text;
+  if (type == "number")
+    text = span_text(column["range"]);
+  else if (type == "time")
+    text = fmt::format("text, times from {} to {}", text_of(column["range"][0]), text_of(column["range"][1]));
+  else
+    text = fmt::format("text, {} different", column["different"].get<std::size_t>());
+  const auto gaps = column["gaps"].get<std::size_t>();
+  return gaps == 0 ? text : fmt::format("{}, {} gap{}", text, gaps, gaps == 1 ? "" : "s");
+}
+
+void show_table(const Json& file) {
+  for (const auto& comment : file["comments"]) fmt::print("# {}\n", text_of(comment));
+  fmt::print("{}: {} rows\n", text_of(file["file"]), file["rows"].get<std::size_t>());
+  for (const auto& column : file["columns"])
+    fmt::print("  {:<18} {}\n", text_of(column["name"]), column_text(column));
 }
 
 void show_flow(const fs::path& path) {
@@ -92,22 +73,14 @@ void show_flow(const fs::path& path) {
              flow.from, text(flow.v_x), text(flow.omega));
 }
 
-void show_run(const fs::path& path) {
-  if (!fs::exists(path / "run.json")) throw InputError(path.string() + ": not a run directory (no run.json)");
+void show_run(const Json& run, const fs::path& path) {
   fmt::print("{}", run::read_record_text(path));
   show_flow(path);
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    const auto name = entry.path().filename().string();
-    if (!entry.is_directory()) {
-      files.push_back(fmt::format("  {:<20} {:>12} bytes", name, entry.file_size()));
-      continue;
-    }
-    const auto inside = std::distance(fs::directory_iterator(entry.path()), fs::directory_iterator{});
-    files.push_back(fmt::format("  {:<20} {:>12} files", name + "/", inside));
+  for (const auto& file : run["files"]) {
+    const bool folder = file.contains("files");
+    fmt::print("  {:<20} {:>12} {}\n", text_of(file["name"]),
+               file[folder ? "files" : "bytes"].get<std::uintmax_t>(), folder ? "files" : "bytes");
   }
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) fmt::print("{}\n", file);
 }
 
 /// Whether every file of a run holds what the run wrote into it.
@@ -131,16 +104,13 @@ void verify(const fs::path& path) {
   fmt::print("{}: {} files are as the run wrote them\n", path.string(), count);
 }
 
-void info(const fs::path& path) {
-  if (!fs::exists(path)) throw InputError(path.string() + ": no such file or run");
-  const auto extension = path.extension();
-  if (fs::is_directory(path)) return show_run(path);
-  if (extension == ".csv") return show_table(path);
-  constexpr std::array point_files{".vtp", ".vtu", ".vtk", ".pvtp", ".pvtu", ".vtm"};
-  if (std::find(point_files.begin(), point_files.end(), extension) != point_files.end())
-    return show_vtk(path);
-  throw InputError(fmt::format("{}: neither a run directory nor a {} or .csv file", path.string(),
-                               fmt::join(point_files, ", ")));
+void info(const fs::path& path, bool json) {
+  const auto found = describe_file(path);
+  if (json) return fmt::print("{}\n", found.dump(2));
+  const auto kind = text_of(found["kind"]);
+  if (kind == "run") show_run(found, path);
+  if (kind == "table") show_table(found);
+  if (kind == "vtk") show_vtk(found);
 }
 
 }  // namespace
@@ -149,16 +119,18 @@ void add_info(CLI::App& app) {
   auto* verb = app.add_subcommand("info", "Tell what a run, a VTK file or a table holds");
   struct Arguments {
     std::string path;
-    bool verify = false;
+    bool json = false, verify = false;
   };
   auto a = std::make_shared<Arguments>();
   verb->add_option("path", a->path, "run directory, VTK file or CSV table")->required();
-  verb->add_flag("--verify", a->verify, "compare every file of a run with the checksums in its run.json");
+  auto* json = verb->add_flag("--json", a->json, "for programs: keys as in README.md");
+  verb->add_flag("--verify", a->verify, "compare every file of a run with the checksums in its run.json")
+      ->excludes(json);
   verb->footer(
       "Exit status with --verify: 0 all files are whole, 1 some are not.\n"
       "Example: chute info out/demo/impacts.vtp\n"
       "         chute info --verify out/demo");
-  verb->callback([a] { a->verify ? verify(a->path) : info(a->path); });
+  verb->callback([a] { a->verify ? verify(a->path) : info(a->path, a->json); });
 }
 
 }  // namespace chute::app

@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "app/input.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
@@ -22,9 +23,9 @@ struct RunArguments {
 };
 
 /// An experiment takes seconds at most: there is nothing to show or to resume, but the results to print.
-void experiment(const RunArguments& arguments, const run::RunOptions& options) {
-  const auto outcome =
-      experiments::run_experiment(experiments::read_experiment(arguments.scene, arguments.settings), options);
+void experiment(const RunArguments& arguments, const Input& scene, const run::RunOptions& options) {
+  const auto outcome = experiments::run_experiment(
+      experiments::parse_experiment(scene.text, scene.name, arguments.settings), options);
   if (arguments.quiet) return;
   for (const auto& result : outcome.results)
     fmt::print("{:<14} {:<22} {}\n", result.name, fmt::format("{:.6g} {}", result.value, result.unit),
@@ -34,17 +35,18 @@ void experiment(const RunArguments& arguments, const run::RunOptions& options) {
 
 void run(const RunArguments& arguments) {
   if (arguments.resume && arguments.force) throw InputError("--resume and --force exclude each other");
+  const auto input = read_input(arguments.scene);
   run::RunOptions options;
   options.directory = arguments.directory.empty()
-                          ? std::filesystem::path("out") / std::filesystem::path(arguments.scene).stem()
+                          ? std::filesystem::path("out") / std::filesystem::path(input.name).stem()
                           : std::filesystem::path(arguments.directory);
   options.existing = arguments.resume  ? run::Existing::resume
                      : arguments.force ? run::Existing::replace
                                        : run::Existing::refuse;
   options.threads = arguments.threads;
   options.command_line = command_line();
-  if (experiments::is_experiment(arguments.scene)) return experiment(arguments, options);
-  const auto scene = scene::read_scene(arguments.scene, arguments.settings);
+  if (experiments::is_experiment(input.text, input.name)) return experiment(arguments, input, options);
+  const auto scene = scene::parse_scene(input.text, input.name, arguments.settings);
   if (!arguments.quiet)
     for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);
   Progress progress("run", arguments.quiet);
@@ -57,13 +59,17 @@ void run(const RunArguments& arguments) {
   watch_for_interrupt();
   const auto result = run::run_scene(scene, options);
   if (!result.finished)
-    throw WorkError(fmt::format("stopped; go on with: chute run {} -o {} --resume", arguments.scene,
-                                options.directory.string()));
+    throw WorkError(fmt::format(
+        "stopped; go on with: chute run {} -o {} --resume",
+        arguments.scene == standard_input ? (options.directory / "scene.toml").string() : arguments.scene,
+        options.directory.string()));
   if (!arguments.quiet)
-    tell("run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n", result.steps,
-         duration_text(result.seconds),
-         static_cast<double>(result.steps) * static_cast<double>(result.grains) / result.seconds / 1e6,
-         options.directory.string());
+    tell(
+        "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n"
+        "run: to see what came of it: chute report {} -o report.html\n",
+        result.steps, duration_text(result.seconds),
+        static_cast<double>(result.steps) * static_cast<double>(result.grains) / result.seconds / 1e6,
+        options.directory.string(), options.directory.string());
 }
 
 }  // namespace
@@ -71,7 +77,7 @@ void run(const RunArguments& arguments) {
 void add_run(CLI::App& app) {
   auto* verb = app.add_subcommand("run", "Simulate a scene into a run directory");
   auto a = std::make_shared<RunArguments>();
-  verb->add_option("scene", a->scene, "scene file (TOML)")->required();
+  verb->add_option("scene", a->scene, "scene file (TOML); -: standard input")->required();
   verb->add_option("-o,--output", a->directory, "run directory; default out/NAME-OF-SCENE");
   verb->add_option("--set", a->settings, "change a key of the scene: --set contact.normal.restitution=0.7")
       ->allow_extra_args(false);

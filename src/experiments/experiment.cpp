@@ -218,8 +218,12 @@ double Experiment::step() const {
   return 0;
 }
 
+bool is_experiment(std::string_view text, const std::string& name) {
+  return parse_toml(text, name).contains("experiment");
+}
+
 bool is_experiment(const std::filesystem::path& file) {
-  return parse_toml(read_file(file), file.string()).contains("experiment");
+  return is_experiment(read_file(file), file.string());
 }
 
 Experiment parse_experiment(std::string_view text, const std::string& name,

@@ -67,6 +67,7 @@ struct Experiment {
 
 /// Does this file have a table [experiment]? InputError if it cannot be read or is not TOML.
 bool is_experiment(const std::filesystem::path& file);
+bool is_experiment(std::string_view text, const std::string& name);
 
 /// Reads an experiment; `settings` are `key.path=value`. InputError `FILE:LINE: key: …` on anything unknown,
 /// missing or out of range.

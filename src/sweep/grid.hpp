@@ -17,6 +17,9 @@ struct Base {
 
   /// InputError if the file cannot be read.
   explicit Base(std::filesystem::path scene_file, std::vector<std::string> settings = {});
+  /// Of a file that is read already.
+  Base(std::filesystem::path scene_file, std::vector<std::string> settings, std::string content)
+      : file(std::move(scene_file)), set(std::move(settings)), text(std::move(content)) {}
 
   /// With further changes on top. All outputs but the series are left out: a sweep keeps none.
   scene::Scene scene(const std::vector<std::string>& more) const;

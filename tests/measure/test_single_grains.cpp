@@ -43,8 +43,9 @@ template <class MakeOutput, class Place>
 std::string file_of(const MakeOutput& output, const RunContext& given, std::size_t grains,
                     const std::string& name, const Place& place) {
   RunContext run = given;
-  run.directory = std::filesystem::temp_directory_path() / ("chute-single-grains-" + name);
-  std::filesystem::create_directories(run.directory);
+  const auto directory = std::filesystem::temp_directory_path() / ("chute-single-grains-" + name);
+  std::filesystem::create_directories(directory);
+  run.files = std::make_shared<io::RunFiles>(directory);
   const auto observers = output.make(run);
   Shown engine(grains);
   const auto steps = static_cast<std::int64_t>(run.duration / 0.01 + 0.5);
@@ -54,11 +55,12 @@ std::string file_of(const MakeOutput& output, const RunContext& given, std::size
     observers[0]->look({engine, {}, {}});
   }
   observers[0]->write({});
-  std::ifstream in(run.directory / name);
+  run.files->commit();
+  std::ifstream in(directory / name);
   std::string text, line;
   while (std::getline(in, line))
     if (!line.starts_with("#")) text += line + "\n";
-  std::filesystem::remove_all(run.directory);
+  std::filesystem::remove_all(directory);
   return text;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "read/iso_time.hpp"
 #include "read/table.hpp"
 
 using namespace chute;
@@ -62,4 +63,49 @@ TEST_CASE("Tables of other programs: a mark of byte order, gaps by name, signs, 
   CHECK(numpy.comments == std::vector<std::string>{"a run, of last week"});
   CHECK(numpy.is_number("force"));
   CHECK_FALSE(read::parse_table("day\n2024-03-07\n", "t.csv").is_number("day"));
+}
+
+TEST_CASE("Semicolons between cells, commas in numbers; commas stay what they are where they divide") {
+  const auto table = read::parse_table("zeit;kraft\n0,5;1,25\n1;-2.5e0\n1,5;\n", "t.csv");
+  CHECK(table.header == std::vector<std::string>{"zeit", "kraft"});
+  CHECK(table.column("zeit") == std::vector<double>{0.5, 1, 1.5});
+  CHECK(table.column("kraft")[0] == 1.25);
+  CHECK(table.column("kraft")[1] == -2.5);
+  CHECK(std::isnan(table.column("kraft")[2]));
+  const auto plain = read::parse_table("x,y;z\n1,2\n", "t.csv");
+  CHECK(plain.header == std::vector<std::string>{"x", "y;z"});
+  CHECK(complaint([] { read::parse_table("a;b\n1;2\n3\n", "t.csv"); }) ==
+        "t.csv:3: 1 cells, but the header names 2");
+}
+
+TEST_CASE("Dates and times of day in universal time; what does not exist is none") {
+  CHECK(read::iso_time("1970-01-01") == 0.0);
+  CHECK(read::iso_time("2000-03-01") == 951868800.0);  // the day after a leap day
+  CHECK(read::iso_time("2026-11-26T18:10:05.5Z") == 1795716605.5);
+  CHECK(read::iso_time("1970-01-02 01:30") == 91800.0);
+  CHECK(read::iso_time("1970-01-01T01:00+01:00") == 0.0);
+  CHECK(read::iso_time("1970-01-01T01:00-0130") == 9000.0);
+  for (const char* wrong : {"", "2026", "2026-02-29", "2026-13-01", "2026-01-01T25:00", "2026-01-01Tnoon",
+                            "2026-01-01T10:00+", "26-01-01", "2026-01-01T10:61", "1.5", "2026-01-01x"})
+    CHECK_FALSE(read::iso_time(wrong));
+}
+
+TEST_CASE("A column's type, gaps and range") {
+  const auto table =
+      read::parse_table("date,force,note,none\n2024-03-08,0.5,a,\n2024-03-07,N/A,b,-\n,2.5,,nan\n", "t.csv");
+  using Type = read::ColumnSummary::Type;
+  const auto date = table.summary("date"), force = table.summary("force"), note = table.summary("note");
+  CHECK(date.type == Type::time);
+  CHECK(date.gaps == 1);
+  CHECK(date.low_text == "2024-03-07");
+  CHECK(date.high - date.low == 86400);
+  CHECK(force.type == Type::number);
+  CHECK(force.gaps == 1);
+  CHECK(force.low == 0.5);
+  CHECK(force.high == 2.5);
+  CHECK(note.type == Type::text);
+  CHECK(note.gaps == 1);
+  CHECK(note.different == 3);
+  CHECK(table.summary("none").type == Type::number);
+  CHECK(std::isnan(table.summary("none").low));
 }

@@ -1,0 +1,84 @@
+#include "read/iso_time.hpp"
+
+#include <chrono>
+
+#include "read/number.hpp"
+
+namespace chute::read {
+namespace {
+
+/// Takes `digits` digits from the front; nothing if there are fewer.
+std::optional<int> take_digits(std::string_view& text, std::size_t digits) {
+  if (text.size() < digits) return {};
+  int value = 0;
+  for (std::size_t i = 0; i < digits; ++i) {
+    if (text[i] < '0' || text[i] > '9') return {};
+    value = 10 * value + (text[i] - '0');
+  }
+  text.remove_prefix(digits);
+  return value;
+}
+
+bool take(std::string_view& text, char c) {
+  if (!text.starts_with(c)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// `HH:MM` or `HHMM`, as seconds.
+std::optional<double> take_hours(std::string_view& text) {
+  const auto hours = take_digits(text, 2);
+  take(text, ':');
+  const auto minutes = hours ? take_digits(text, 2) : std::nullopt;
+  if (!minutes || *hours > 24 || *minutes > 59) return {};
+  return 3600.0 * *hours + 60.0 * *minutes;
+}
+
+/// The time of day with what follows it, as seconds in universal time.
+std::optional<double> take_time(std::string_view text) {
+  auto seconds = take_hours(text);
+  if (!seconds) return {};
+  if (take(text, ':')) {
+    const auto end = text.find_first_not_of("0123456789.,");
+    std::string part(text.substr(0, end));
+    if (const auto comma = part.find(','); comma != std::string::npos) part[comma] = '.';
+    const auto value = part.size() >= 2 && part.find('.') != 0 ? number_in(part) : std::nullopt;
+    if (!value || *value > 60) return {};
+    *seconds += *value;
+    text.remove_prefix(part.size());
+  }
+  if (*seconds > 86400) return {};
+  if (text.empty() || text == "Z" || text == "z") return seconds;
+  const bool ahead = take(text, '+');
+  if (!ahead && !take(text, '-')) return {};
+  std::optional<double> offset;
+  if (text.size() == 2) {
+    const auto hours = take_digits(text, 2);
+    if (hours && *hours < 24) offset = 3600.0 * *hours;
+  } else {
+    offset = take_hours(text);
+  }
+  if (!offset || !text.empty()) return {};
+  return ahead ? *seconds - *offset : *seconds + *offset;
+}
+
+}  // namespace
+
+std::optional<double> iso_time(std::string_view text) {
+  text = trimmed(text);
+  const auto year = take_digits(text, 4);
+  const auto month = year && take(text, '-') ? take_digits(text, 2) : std::nullopt;
+  const auto day = month && take(text, '-') ? take_digits(text, 2) : std::nullopt;
+  if (!day) return {};
+  using namespace std::chrono;
+  const year_month_day date{std::chrono::year{*year}, std::chrono::month{static_cast<unsigned>(*month)},
+                            std::chrono::day{static_cast<unsigned>(*day)}};
+  if (!date.ok()) return {};
+  const auto days = static_cast<double>(sys_days{date}.time_since_epoch().count());
+  if (text.empty()) return 86400 * days;
+  if (!take(text, 'T') && !take(text, 't') && !take(text, ' ')) return {};
+  const auto seconds = take_time(text);
+  return seconds ? std::optional(86400 * days + *seconds) : std::nullopt;
+}
+
+}  // namespace chute::read

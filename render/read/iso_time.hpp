@@ -1,0 +1,12 @@
+#pragma once
+#include <optional>
+#include <string_view>
+
+namespace chute::read {
+
+/// A date, or a date and time of day, after ISO 8601: `2026-03-07`, `2026-03-07T14:05`, `2026-03-07 14:05:09.25`, with `Z` or
+/// an offset such as `+01:00` at its end. Seconds since the begin of 1970 in universal time, which is also taken where nothing
+/// is said. Nothing if the text is something else, or a day or a time that does not exist.
+std::optional<double> iso_time(std::string_view text);
+
+}  // namespace chute::read
