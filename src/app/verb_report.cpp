@@ -8,6 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/numbers.hpp"
 #include "app/progress.hpp"
+#include "app/say.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "report/report.hpp"
@@ -37,7 +38,7 @@ void report(const ReportArguments& a) {
     if (interrupted()) throw WorkError("stopped; no page was made");
   };
   report::write_report(job);
-  if (!a.quiet) fmt::print(stderr, "report: {}; open it with any browser\n", a.output);
+  if (!a.quiet) tell("report: {}; open it with any browser\n", a.output);
 }
 
 }  // namespace

@@ -25,12 +25,12 @@ enum class Extract {
   pressure,    ///< a column of pressure.csv against the packing fraction
   value,       ///< the one number of a column of `file`, against the value of `vary`; averaged over the runs
   mean,        ///< the mean of a column of `file` over its rows, against the value of `vary`
-  table,       ///< a column of `file` against another, averaged over the runs
   line,        ///< a straight line through the origin, to guide the eye
   map,         ///< a field of cells against x, one series a file
   spectrum,    ///< of that field's fluctuations in time
   avalanches,  ///< distribution of avalanches' sizes, of a pile as long as `length`
   mean_avalanche,  ///< their mean size, against `length`
+  table,           ///< a column of `file` against another, averaged over the runs
   cooling,         ///< √(T_0/T) or a_2 of a gas against t/τ (extract_hard.hpp, as all that follow)
   rate,            ///< how fast a column of series.csv changes, against the value of `vary`
   record,          ///< a number of run.json, against that

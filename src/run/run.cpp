@@ -48,6 +48,8 @@ class Run {
     const bool finished = engine().step() >= last;
     write_run_json(finished ? "finished" : "interrupted", "", took.count());
     if (finished) directory_.finish();
+    // A bar on a terminal ends full, however short the run was.
+    if (finished && options_.progress) options_.progress(1);
     return {finished, engine().step() - first, engine().grains().moving, took.count()};
   }
 

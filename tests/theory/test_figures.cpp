@@ -29,13 +29,18 @@ const FigureContext quick{true, 1};
 
 }  // namespace
 
-TEST_CASE("every theory figure has rows, comments for x and y, and finite numbers") {
+TEST_CASE(
+    "every theory figure has rows, comments for x and y, and finite numbers; what is drawn in others has rows") {
   for (const auto& [id, compute] : theory_figures()) {
     const auto table = compute(quick);
     CAPTURE(id);
-    CHECK(table.rows.size() > 50);
-    CHECK(table.comments[0].starts_with("x: "));
-    CHECK(table.comments[1].starts_with("y: "));
+    const bool whole = !id.starts_with("theory-");
+    CHECK(table.rows.size() > (whole ? 50 : 1));
+    REQUIRE(table.comments.size() >= (whole ? 2 : 1));
+    if (whole) {
+      CHECK(table.comments[0].starts_with("x: "));
+      CHECK(table.comments[1].starts_with("y: "));
+    }
     for (const auto& row : table.rows) {
       CHECK(std::isfinite(row.x));
       CHECK(std::isfinite(row.y));
