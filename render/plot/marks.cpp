@@ -140,7 +140,7 @@ class SeriesPainter {
   }
 
   static void draw_marker(DisplayList& list, const Look& look, const MarkerShape& shape, Color color,
-                          Point at) {
+                          const Point& at) {
     Path path;
     path.append(shape.path, at);
     const Stroke pen{0.85 * look.line_width, {}, Cap::butt, Join::miter};

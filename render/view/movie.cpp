@@ -149,7 +149,7 @@ Movie::Movie(const fs::path& path, int width, int height, double frames_per_seco
   if (kind == Kind::apng) append({"-c:v", "apng", "-pred", "mixed", "-plays", "0", "-f", "apng"});
   words.push_back("file:" + file.path().string());
   const bool is_palette = kind == Kind::gif && palette.empty();
-  inside_.reset(new Inside{
+  inside_ = std::make_unique<Inside>(Inside{
       std::move(file), width, height, is_palette ? Kind::apng : kind, ground, {}, {}, kind == Kind::apng});
   inside_->encode([&] { inside_->encoder = std::make_unique<Encoder>(words); });
 }

@@ -54,7 +54,7 @@ struct Beside {
   Beside(const RenderJob& job, const std::vector<read::FrameFile>& frames) {
     Hash found;
     const auto take = [&](const char* name) {
-      const auto path = read::find_beside(frames.front(), name);
+      auto path = read::find_beside(frames.front(), name);
       if (!path.empty()) add_part(found, read_file(path));
       return path;
     };
