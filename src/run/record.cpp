@@ -46,7 +46,7 @@ void write_record(const std::filesystem::path& file, const RunRecord& r,
 }
 
 std::string read_record_text(const std::filesystem::path& directory) {
-  const auto text = read_file(directory / "run.json");
+  auto text = read_file(directory / "run.json");
   auto json = nlohmann::ordered_json::parse(text, nullptr, false);
   if (!json.is_object()) return text;
   json.erase("files");
