@@ -51,10 +51,10 @@ static void describe(TomlReader& a, Curve& curve) {
   if (value || table) a.required("file", curve.file);
   if (histogram || scatter) a.value("file", curve.file);
   if (histogram || scatter || mean) a.sections("where", curve.where);
-  if (value) a.value("x_power", curve.x_power, at_least(0)), a.value("x_scale", curve.x_scale, positive);
   const bool rate = curve.extract == Extract::rate || curve.extract == Extract::record;
   if (histogram || value || rate || curve.extract == Extract::network) a.value("scale", curve.scale);
-  if (rate) a.value("scale_x", curve.scale_x);
+  if (value || rate)
+    a.value("x_power", curve.x_power, at_least(0)), a.value("x_scale", curve.x_scale, positive);
   if (curve.extract == Extract::cooling) {
     a.required("packing", curve.packing, between(1e-6, 0.9));
     a.required("restitution", curve.restitution, between(0, 1));

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -59,12 +60,12 @@ struct Curve {
   std::optional<std::string>
       file;            ///< histogram, scatter, value, mean, table: a CSV file of the run; default its impacts
   std::string column;  ///< what is drawn (y; x of a histogram)
-  std::vector<Where> where;         ///< histogram, scatter, mean: only rows that all of these let pass
-  bool over_sine = false;           ///< histogram: divided by the sine of x, the size of a ring on a sphere
-  double scale = 1;                 ///< histogram: x times this; value, mean, rate, record, network: y
-  double x_power = 1, x_scale = 1;  ///< value, mean: x is the value of `vary` to this power, times this
-  bool times_velocity = false;      ///< histogram: and x times the run's mean velocity: a time becomes a way
-  double scale_x = 1;               ///< rate, record: x times this
+  std::vector<Where> where;  ///< histogram, scatter, mean: only rows that all of these let pass
+  bool over_sine = false;    ///< histogram: divided by the sine of x, the size of a ring on a sphere
+  double scale = 1;          ///< histogram: x times this; value, mean, rate, record, network: y
+  double x_power = 1,
+         x_scale = 1;  ///< value, mean, rate, record: x is the value of `vary` to this power, times this
+  bool times_velocity = false;  ///< histogram: and x times the run's mean velocity: a time becomes a way
   double packing = 0, restitution = 1;       ///< cooling: φ and e_n
   double slope = 1;                          ///< line
   std::string against;                       ///< scatter, table: the column for x
@@ -83,6 +84,9 @@ struct Curve {
   std::optional<std::int64_t> quick_count;  ///< so many of them, evenly, are enough for a quick figure
   bool full_only = false;                   ///< this point is not one of those; not in the file
   double at = 0;                            ///< the value that this point of the curve has; not in the file
+
+  /// Where the point of a curve stands along which something varies.
+  double x() const { return x_scale * std::pow(at, x_power); }
 };
 
 /// The data half of a figure recipe: [data] and [[data.curve]].

@@ -239,9 +239,6 @@ std::vector<FigureRow> last(const Curve& curve, std::span<const fs::path> runs) 
   return {{curve.panel, curve.series, curve.at, mean, {}, error}};
 }
 
-/// Where the point of a curve stands along which something varies.
-double x_of(const Curve& curve) { return curve.x_scale * std::pow(curve.at, curve.x_power); }
-
 /// The one number that a table of each run has in this column, over the runs. Runs that have none do not count.
 std::vector<FigureRow> value(const Curve& curve, std::span<const fs::path> runs) {
   std::vector<double> values;
@@ -259,7 +256,7 @@ std::vector<FigureRow> value(const Curve& curve, std::span<const fs::path> runs)
   }
   if (values.empty()) return {};
   const auto [mean, error] = estimate_of(values);
-  return {{curve.panel, curve.series, x_of(curve), mean, {}, error ? error : own}};
+  return {{curve.panel, curve.series, curve.x(), mean, {}, error ? error : own}};
 }
 
 /// The mean of a column over the rows of each run's table that pass. Its error is that over the runs, or of one run that
@@ -279,7 +276,7 @@ std::vector<FigureRow> mean_of_rows(const Curve& curve, std::span<const fs::path
   }
   if (means.empty()) return {};
   const auto [mean, error] = estimate_of(means);
-  return {{curve.panel, curve.series, x_of(curve), mean, {}, error ? error : own}};
+  return {{curve.panel, curve.series, curve.x(), mean, {}, error ? error : own}};
 }
 
 std::vector<FigureRow> line(const Curve& curve) {

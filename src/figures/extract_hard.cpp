@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
@@ -53,7 +53,7 @@ std::vector<FigureRow> mean_of(const Curve& curve, const std::vector<Points>& al
 std::vector<FigureRow> one_point(const Curve& curve, const std::vector<double>& values) {
   if (values.empty()) return {};
   const auto [mean, error] = estimate_of(values);
-  return {{curve.panel, curve.series, curve.scale_x * curve.at, mean, {}, error}};
+  return {{curve.panel, curve.series, curve.x(), mean, {}, error}};
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ std::vector<FigureRow> depth(const Curve& curve, std::span<const fs::path> runs)
   return mean_of(curve, all, at);
 }
 
-/// For each λ the best σ_∞ is linear least squares; λ by golden section on a logarithmic scale.
+/// For each λ the best σ_∞ is linear least squares; λ by minimising over its logarithm.
 Janssen fit_janssen(const std::vector<FigureRow>& rows) {
   if (rows.size() < 3) throw WorkError("Janssen's law needs three depths to be fitted to");
   const auto best_stress = [&](double lambda) {
@@ -171,12 +171,11 @@ Janssen fit_janssen(const std::vector<FigureRow>& rows) {
     return sum;
   };
   const double largest = rows.back().x;
-  double low = std::log(largest / 100), high = std::log(largest * 100);
-  for (int k = 0; k < 100; ++k) {
-    const double a = high - (high - low) / std::numbers::phi, b = low + (high - low) / std::numbers::phi;
-    (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
-  }
-  const double lambda = std::exp((low + high) / 2);
+  constexpr double widest = 100;  // λ within this factor of the largest depth
+  constexpr int bits = 40;
+  const double lambda = std::exp(boost::math::tools::brent_find_minima(misfit, std::log(largest / widest),
+                                                                       std::log(largest * widest), bits)
+                                     .first);
   return {best_stress(lambda), lambda, largest};
 }
 

@@ -97,12 +97,13 @@ FigureTable compute_fig_4_04(const FigureContext& context) {
   constexpr double fit_from = 0.1, fit_to = 0.3, step = 0.02;
   const std::int64_t hops = context.quick ? 20'000 : 1'000'000;
   FigureTable table;
+  const StochasticModel usual;
   table.comments = {
       "x: sin theta",
       "y: mean velocity v_x per time, m/s",
       fmt::format("stochastic model (4.1.3): r = 0.5 mm, eps = 0, mu = {}, e_n = {}, beta = {}; y_err from "
                   "block averages",
-                  0.142, 0.9, 0.45),
+                  usual.friction, usual.restitution, usual.beta),
       fmt::format("made with {} impacts a point, seed 1; no point where the ball is trapped or runs away",
                   hops),
       "R=3mm ...: e_t by (4.8), as published; with (4.9): e_t of a ball that cannot turn",

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/random.hpp"
+#include "figures/extract_hard.hpp"
 #include "figures/fits.hpp"
 
 using namespace chute;
@@ -63,4 +64,16 @@ TEST_CASE("too few points have no law, and one series of a figure gets a line an
   CHECK(last.series == "law");
   CHECK(last.x == 2);
   CHECK(last.y == Approx(5 * std::exp(-4)));
+}
+
+TEST_CASE("Janssen's law comes back from stresses that follow it, saturated or hardly bent") {
+  for (const double length : {4.0, 20.0, 60.0}) {
+    CAPTURE(length);
+    std::vector<FigureRow> rows;
+    for (double z = 1; z <= 30; ++z) rows.push_back({"", "", z, -38 * std::expm1(-z / length)});
+    const auto fit = fit_janssen(rows);
+    CHECK(fit.length == Approx(length).epsilon(1e-5));
+    CHECK(fit.stress == Approx(38).epsilon(1e-5));
+    CHECK(fit.largest == 30);
+  }
 }
