@@ -198,7 +198,7 @@ TEMPLATE_TEST_CASE_SIG("the work per collision does not grow with the number of 
     const auto done = static_cast<double>(w.collisions);
     CHECK(done > 250);
     const double candidates = static_cast<double>(w.candidates) / done;
-    CAPTURE(side, w.collisions, w.crossings, w.outdated, candidates);
+    CAPTURE(side, w.collisions, w.moves, w.outdated, candidates);
     CHECK(w.layouts == 1);
     least = std::min(least, candidates), most = std::max(most, candidates);
   }

@@ -70,9 +70,8 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
                       setup_.domain.length[k], widest_moving, 2 * reach_));
     force_[static_cast<std::size_t>(k)].assign(n, 0);
   }
-  prospect_.resize(moving);
-  crossing_.resize(moving);
-  bursts_.resize(moving);
+  outlook_.resize(moving);
+  courses_.resize(n);
   show();
   start_place_ = unwrapped_places<D>(this->grains());
   account_.start = energy().stored();
@@ -88,40 +87,59 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
         throw WorkError(fmt::format("grain {} overlaps a wall by {:.3g} at the start; hard grains cannot", i,
                                     flights_[i].radius - height));
   for (std::size_t i = 0; i < moving; ++i)
-    cells_.neighbours(i, nullptr, [&](std::size_t j, const auto&) {
-      if (!feels(j)) return;
+    for (const Near& near : near_.of(i)) {
+      const auto j = static_cast<std::size_t>(near.other);
       const double distance = norm(setup_.domain.way(flights_[i].place, flights_[j].place));
       const double reach = flights_[i].radius + flights_[j].radius;
       if (distance < reach * (1 - touching))
         throw InputError(
             fmt::format("grains.start: grains {} and {} overlap by {:.3g} at the start; hard grains cannot",
                         i, j, reach - distance));
-    });
+    }
 }
 
 /// When two grains meet, if not surely later than `limit`. Computed from the later of their last collisions,
 /// and always the same way round: the same bytes whoever asks, and when.
 template <int D>
-double EventEngine<D>::contact_with(std::size_t i, const Candidate& candidate, double limit) {
+double EventEngine<D>::contact_with(std::size_t i, const Near& near, double limit) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  constexpr double margin = 1e-9;  // bounds that tell most pairs apart are exact but for rounding
   ++work_.candidates;
-  const std::size_t j = candidate.other;
+  const auto j = static_cast<std::size_t>(near.other);
   const bool swapped = j < i;
-  const Flight<D>&a = flights_[swapped ? j : i], &b = flights_[swapped ? i : j];
-  const double from = std::max(a.time, b.time);
+  const std::size_t low = swapped ? j : i, high = swapped ? i : j;
+  const Course &a = courses_[low], &b = courses_[high];
+  const bool both = high < grains_.moving;
+  const double from = std::max(a.time, b.time), t_a = from - a.time, t_b = from - b.time;
+  const Vec<D>& g = setup_.gravity;
   hard::Approach<D> approach;
-  const Vec<D> place_a = a.place_at(from), place_b = b.place_at(from);
   for (int k = 0; k < D; ++k) {
-    const int periods = candidate.shift[static_cast<std::size_t>(k)];
-    approach.d[k] = place_a[k] - place_b[k];
-    if (periods != 0) approach.d[k] -= (swapped ? -periods : periods) * setup_.domain.length[k];
+    const double g_b = both ? g[k] : 0;
+    const double place_a = a.place[k] + t_a * (a.velocity[k] + (0.5 * t_a) * g[k]);
+    const double place_b = b.place[k] + t_b * (b.velocity[k] + (0.5 * t_b) * g_b);
+    approach.d[k] = place_a - place_b;
+    approach.v[k] = (a.velocity[k] + t_a * g[k]) - (b.velocity[k] + t_b * g_b);
+    approach.a[k] = g[k] - g_b;
   }
-  approach.v = a.velocity_at(from) - b.velocity_at(from);
-  approach.a = a.gravity - b.gravity;
+  if (near_.is_shifted(i, near)) {
+    const auto shift = near_.shift(i, near);
+    for (int k = 0; k < D; ++k)
+      if (const int periods = shift[static_cast<std::size_t>(k)]; periods != 0)
+        approach.d[k] -= (swapped ? -periods : periods) * setup_.domain.length[k];
+  }
   approach.reach = a.radius + b.radius;
-  // The bound is cheap and exact but for rounding, hence the margin; it saves most of the quartics.
-  if (from + approach.earliest() * (1 - 1e-9) > limit) return std::numeric_limits<double>::infinity();
+  if (both) {
+    const double closing = dot(approach.d, approach.v);
+    if (!(closing < 0)) return never;
+    const double reach2 = approach.reach * approach.reach, c = dot(approach.d, approach.d) - reach2;
+    const double v2 = dot(approach.v, approach.v);
+    if (closing * closing + margin * reach2 * v2 < v2 * c) return never;  // they pass each other
+    if (c > (2 + margin) * -closing * (limit - from)) return never;       // not so soon, if they met head on
+  } else if (from + approach.earliest() * (1 - margin) > limit) {
+    return never;  // it saves most of the quartics
+  }
   ++work_.predictions;
-  return from + hard::first_contact(approach);
+  return from + (both ? hard::first_contact_linear(approach) : hard::first_contact(approach));
 }
 
 template <int D>
@@ -129,46 +147,56 @@ double EventEngine<D>::contact_with_wall(std::size_t i, std::size_t wall, double
   return hard::first_contact_with_wall(flights_[i], setup_.walls[wall], setup_.domain, limit);
 }
 
-/// Looks for grain i's earliest collision: among all neighbours, the likely one first, or, after a crossing,
-/// among the new ones.
 template <int D>
-void EventEngine<D>::look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely) {
-  Prospect& first = prospect_[i];
-  if (!crossed) first = {};
-  candidates_.clear();
-  cells_.neighbours(i, crossed, [&](std::size_t j, const std::array<int, D>& shift) {
-    if (!feels(j)) return;
-    candidates_.push_back({j, shift});
-    if (j == likely) std::swap(candidates_.front(), candidates_.back());
-  });
-  for (const Candidate& candidate : candidates_) {
-    const double t = contact_with(i, candidate, first.time);
-    const std::size_t j = candidate.other;
-    if (t < first.time || (t == first.time && t < std::numeric_limits<double>::infinity() && j < first.other))
-      first = {t, j, flights_[j].collisions};
-  }
-  for (std::size_t w = 0; !crossed && w < setup_.walls.size(); ++w)
+void EventEngine<D>::look_at(std::size_t i, const Near& near) {
+  Prospect& first = outlook_[i].first;
+  const auto j = static_cast<std::size_t>(near.other);
+  const double t = contact_with(i, near, first.time);
+  if (t < first.time || (t == first.time && t < std::numeric_limits<double>::infinity() && j < first.other))
+    first = {t, j, flights_[j].collisions};
+}
+
+/// Looks for grain i's earliest collision among all near it, the likely one first.
+template <int D>
+void EventEngine<D>::look(std::size_t i, std::size_t likely) {
+  outlook_[i].first = {};
+  const auto near = near_.of(i);
+  for (const Near& other : near) __builtin_prefetch(&courses_[static_cast<std::size_t>(other.other)]);
+  if (likely != i)
+    for (const Near& other : near)
+      if (static_cast<std::size_t>(other.other) == likely) look_at(i, other);
+  for (const Near& other : near)
+    if (static_cast<std::size_t>(other.other) != likely) look_at(i, other);
+  Prospect& first = outlook_[i].first;
+  for (std::size_t w = 0; w < setup_.walls.size(); ++w)
     if (const double t = contact_with_wall(i, w, first.time); t < first.time)
       first = {t, grains_.size() + w, 0};
-  plan(i);
+}
+
+/// When something must be done about grain i.
+template <int D>
+double EventEngine<D>::plan(std::size_t i) {
+  outlook_[i].moves = near_.leaves(i, flights_[i], now_);
+  const double next = std::min(outlook_[i].first.time, outlook_[i].moves);
+  if (std::isnan(next)) leave_physics(i, "its place is not a number");
+  return next;
 }
 
 template <int D>
-void EventEngine<D>::plan(std::size_t i) {
-  crossing_[i] = cells_.crossing(i, flights_[i], now_);
-  const double next = std::min(prospect_[i].time, crossing_[i].time);
-  if (std::isnan(next)) leave_physics(i, "its place is not a number");
-  queue_.set(i, next);
+void EventEngine<D>::set_course(std::size_t i) {
+  const Flight<D>& f = flights_[i];
+  courses_[i] = {f.place, f.velocity, f.time, f.radius};
 }
 
 template <int D>
 void EventEngine<D>::lay_out() {
   ++work_.layouts;
-  cells_.build(flights_, setup_.domain, reach_, now_);
-  queue_.clear();
-  for (std::size_t i = 0; i < grains_.moving; ++i) queue_.add(0);
-  for (std::size_t i = 0; i < grains_.moving; ++i) look(i, nullptr, i);
-  next_look_ = work_.collisions + work_.crossings + 16 * static_cast<std::int64_t>(grains_.moving);
+  for (std::size_t i = 0; i < grains_.size(); ++i) set_course(i);
+  near_.build(flights_, setup_.domain, grains_.moving, grains_.independent, now_);
+  std::vector<double> times(grains_.moving);
+  for (std::size_t i = 0; i < grains_.moving; ++i) look(i, i), times[i] = plan(i);
+  queue_.start(std::move(times));
+  next_look_ = work_.collisions + work_.moves + 16 * static_cast<std::int64_t>(grains_.moving);
 }
 
 template <int D>
@@ -176,23 +204,24 @@ void EventEngine<D>::advance(std::int64_t step) {
   if (step <= step_) return;
   const double until = static_cast<double>(step) * setup_.tick;
   while (!queue_.empty() && queue_.next().time <= until) {
-    const std::size_t i = queue_.next().grain;
-    now_ = std::max(now_, queue_.next().time);
-    const Prospect& next = prospect_[i];
-    if (crossing_[i].time < next.time) {
-      ++work_.crossings;
-      const auto crossed = crossing_[i];
-      cells_.cross(i, crossed);
-      look(i, &crossed, i);
+    const auto [time, i] = queue_.next();
+    now_ = std::max(now_, time);
+    const Prospect& next = outlook_[i].first;
+    if (outlook_[i].moves < next.time) {
+      ++work_.moves;
+      if (near_.follow(i, flights_[i], now_))
+        for (const Near& near : near_.of(i)) look_at(i, near);
+      queue_.set(i, plan(i));
     } else if (!is_wall(next.other) && flights_[next.other].collisions != next.other_collisions) {
       ++work_.outdated;
-      look(i, nullptr, i);
+      look(i, i);
+      queue_.set(i, plan(i));
     } else {
       collide(i, next.other);
     }
-    if (work_.collisions + work_.crossings >= next_look_) {
+    if (work_.collisions + work_.moves >= next_look_) {
       next_look_ += 16 * static_cast<std::int64_t>(grains_.moving);
-      if (cells_.outgrown(flights_, grains_.moving, now_)) lay_out();
+      if (near_.outgrown(flights_, now_)) lay_out();
     }
   }
   step_ = step;
@@ -251,7 +280,7 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   const std::size_t i = std::min(first, second), j = std::max(first, second);
   const bool both = j < grains_.moving;
   for (const std::size_t k : {i, j})
-    if (k < grains_.moving) cells_.unwind(k, flights_[k].move_to(now_, setup_.domain));
+    if (k < grains_.moving) near_.unwind(k, flights_[k].move_to(now_, setup_.domain));
   const Vec<D> way = way_to(j, flights_[i].place, is_wall(j) ? Vec<D>{} : flights_[j].place, now_);
   const double distance = norm(way), reach = flights_[i].radius + (is_wall(j) ? 0 : flights_[j].radius);
   if (!(std::abs(distance - reach) <= missed * reach))
@@ -283,8 +312,10 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   if (both) flights_[j].velocity = b.velocity, flights_[j].spin = b.spin, ++flights_[j].collisions;
   check_collapse(i);
   if (both) check_collapse(j);
-  look(i, nullptr, j);
-  if (both) look(j, nullptr, i);
+  for (const std::size_t k : {i, j})
+    if (k < grains_.moving) set_course(k);
+  for (const std::size_t k : {i, j})
+    if (k < grains_.moving) look(k, k == i ? j : i), queue_.set(k, plan(k));
 }
 
 /// The shortest way from a place to a grain at `to`, or to a wall.
@@ -328,13 +359,13 @@ void EventEngine<D>::note_touch(std::size_t i, std::size_t j, const Vec<D>& n, c
 
 template <int D>
 void EventEngine<D>::check_collapse(std::size_t i) {
-  Burst& burst = bursts_[i];
-  if (now_ - burst.begin > still_) burst = {now_, 0};
-  if (++burst.collisions > collapse_collisions)
+  Outlook& burst = outlook_[i];
+  if (now_ - burst.burst_begin > still_) burst.burst_begin = now_, burst.burst_collisions = 0;
+  if (++burst.burst_collisions > collapse_collisions)
     leave_physics(
         i, fmt::format("inelastic collapse: it collides ever more often ({} times within {:.2g}); give a "
                        "contact time, or a longer one, below which collisions are elastic",
-                       burst.collisions, still_));
+                       burst.burst_collisions, still_));
 }
 
 template <int D>
@@ -401,7 +432,7 @@ std::vector<Contact> EventEngine<D>::contacts() const {
   return lasting;
 }
 
-/// Everything that changes during a run, for both directions of a checkpoint. Cells, queue and predictions
+/// Everything that changes during a run, for both directions of a checkpoint. Lists, queue and predictions
 /// follow from it.
 template <int D>
 template <class Archive, class Self>
@@ -409,7 +440,7 @@ void EventEngine<D>::transfer(Archive& archive, Self& self) {
   for (std::size_t i = 0; i < self.grains_.moving; ++i) {
     auto& f = self.flights_[i];
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
-    archive(self.bursts_[i].begin, self.bursts_[i].collisions);
+    archive(self.outlook_[i].burst_begin, self.outlook_[i].burst_collisions);
   }
   archive(self.start_place_, self.meetings_, self.touches_, self.account_, self.now_, self.step_);
 }

@@ -4,8 +4,8 @@
 
 #include "core/engine.hpp"
 #include "core/world.hpp"
-#include "engines/event/cells.hpp"
 #include "engines/event/event_queue.hpp"
+#include "engines/event/near_grains.hpp"
 #include "engines/hard/hard_contact.hpp"
 #include "engines/hard/meetings.hpp"
 
@@ -30,10 +30,10 @@ struct EventSetup : Surroundings<D> {
 /// collision, whose times are solved for (first_contact.hpp), and a collision changes velocities at once
 /// (laws/walton.hpp).
 ///
-/// Every grain remembers its flight since its last collision and its earliest event: a collision, or the
-/// change to the next cell of a grid, where it looks for new partners. A queue holds these; a grain whose
-/// partner was hit by somebody else finds out when its event comes up and looks again. The work per collision
-/// does not grow with the number of grains but for the O(log N) of the queue.
+/// Every grain remembers its flight since its last collision and its earliest event: a collision, or the end of
+/// what its list of near grains holds for, where it looks for new partners (NearGrains). A calendar holds these
+/// (EventQueue); a grain whose partner was hit by somebody else finds out when its event comes up and looks again. The
+/// work per collision does not grow with the number of grains.
 ///
 /// Inelastic collapse. Without a cut-off, a grain that comes to rest collides infinitely often in a finite
 /// time; the run then stops with a WorkError that names it. With t_c > 0, a collision less than t_c after the
@@ -72,11 +72,11 @@ class EventEngine final : public Engine {
   struct Work {
     std::int64_t collisions = 0;   ///< all of them
     std::int64_t elastic = 0;      ///< those made elastic by t_c
-    std::int64_t crossings = 0;    ///< changes of cell
+    std::int64_t moves = 0;        ///< ends of what a list holds for
     std::int64_t outdated = 0;     ///< predictions that came up after the partner was hit
     std::int64_t candidates = 0;   ///< pairs looked at: the unit of cost
     std::int64_t predictions = 0;  ///< those whose time was solved for
-    std::int64_t layouts = 0;      ///< times the grid was laid
+    std::int64_t layouts = 0;      ///< times all lists were made
   };
   const Work& work() const { return work_; }
 
@@ -94,17 +94,24 @@ class EventEngine final : public Engine {
   EventSetup<D> setup_;
   Grains<D> grains_;                // as of the last tick: for those who look
   std::vector<Flight<D>> flights_;  // the truth
-  std::vector<Prospect> prospect_;  // of each moving grain: the earliest
-  std::vector<typename Cells<D>::Crossing> crossing_;
-  Cells<D> cells_;
+  /// What is ahead of a moving grain.
+  struct alignas(64) Outlook {
+    Prospect first{};        // the earliest
+    double moves = 0;        // when its list must be looked after
+    double burst_begin = 0;  // to notice a collapse
+    std::int64_t burst_collisions = 0;
+  };
+  std::vector<Outlook, CacheAligned<Outlook>> outlook_;
+  /// What predictions ask of a flight, in one cache line.
+  struct alignas(64) Course {
+    Vec<D> place{}, velocity{};
+    double time = 0, radius = 0;
+  };
+  std::vector<Course, CacheAligned<Course>> courses_;
+  NearGrains<D> near_;
   EventQueue queue_;
   Meetings meetings_;
   TouchLog touches_;
-  struct Burst {
-    double begin = 0;
-    std::int64_t collisions = 0;
-  };
-  std::vector<Burst> bursts_;  // of each moving grain: to notice a collapse
   std::array<Array, D> start_place_, force_;
   EnergyAccount account_;
   double now_ = 0, reach_ = 0, still_ = 0;
@@ -115,23 +122,18 @@ class EventEngine final : public Engine {
   std::vector<Collision> collisions_;
   Work work_;
 
-  struct Candidate {
-    std::size_t other;
-    std::array<int, D> shift;
-  };
-  std::vector<Candidate> candidates_;  // scratch of look()
-
-  double contact_with(std::size_t i, const Candidate& candidate, double limit);
+  using Near = typename NearGrains<D>::Near;
+  double contact_with(std::size_t i, const Near& near, double limit);
   double contact_with_wall(std::size_t i, std::size_t wall, double limit) const;
-  /// Can a moving grain collide with j?
-  bool feels(std::size_t j) const { return !grains_.independent || j >= grains_.moving; }
   bool is_wall(std::size_t partner) const { return partner >= grains_.size(); }
   const Wall<D>& wall_of(std::size_t partner) const { return setup_.walls[partner - grains_.size()]; }
   Vec<D> way_to(std::size_t partner, const Vec<D>& from, const Vec<D>& to, double t) const;
   Contact told(std::size_t i, std::size_t partner, const Vec<D>& place, const Vec<D>& way,
                const Vec<D>& force) const;
-  void look(std::size_t i, const typename Cells<D>::Crossing* crossed, std::size_t likely);
-  void plan(std::size_t i);
+  void look(std::size_t i, std::size_t likely);
+  void look_at(std::size_t i, const Near& near);
+  double plan(std::size_t i);
+  void set_course(std::size_t i);
   void lay_out();
   void collide(std::size_t i, std::size_t j);
   void note_touch(std::size_t i, std::size_t j, const Vec<D>& n, const Meeting* train);

@@ -24,21 +24,6 @@ double root_before(const Function& f, double low, double high, double at_low, do
   return bracket.first;
 }
 
-/// Two grains in free flight: gravity cancels, and (2.18) is a quadratic. The discriminant is that of the
-/// nearest pass, reach² − |d − (d·v/v²) v|², which does not lose its digits when the grains are far apart.
-template <int D>
-double first_contact_linear(const Approach<D>& a) {
-  const double closing = dot(a.d, a.v);
-  if (!(closing < 0)) return never;
-  const double c = a.gap(0);
-  if (c <= 0) return 0;
-  const double v_squared = dot(a.v, a.v);
-  const Vec<D> nearest = a.d - (closing / v_squared) * a.v;
-  const double depth = a.reach * a.reach - dot(nearest, nearest);
-  if (depth <= 0) return never;
-  return c / (-closing + std::sqrt(v_squared * depth));
-}
-
 /// Half the derivative of the gap, ½ d|r|²/dt = r·r': a cubic with a positive leading coefficient. Its roots
 /// are where the gap turns, and its own turning points are a quadratic's roots; between those everything is
 /// monotone.

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <limits>
 
 #include "core/vec.hpp"
 
@@ -36,6 +37,22 @@ struct Approach {
 /// hit is missed, and none is seen twice. A pass closer to a touch than rounding may count as either.
 template <int D>
 double first_contact(const Approach<D>& approach);
+
+/// The same where nothing pulls, a = 0: two grains in free flight, (2.18), a quadratic. The discriminant is that of
+/// the nearest pass, reach² − |d − (d·v/v²) v|², which does not lose its digits when the grains are far apart.
+template <int D>
+double first_contact_linear(const Approach<D>& a) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const double closing = dot(a.d, a.v);
+  if (!(closing < 0)) return never;
+  const double c = a.gap(0);
+  if (c <= 0) return 0;
+  const double v_squared = dot(a.v, a.v);
+  const Vec<D> nearest = a.d - (closing / v_squared) * a.v;
+  const double depth = a.reach * a.reach - dot(nearest, nearest);
+  if (depth <= 0) return never;
+  return c / (-closing + std::sqrt(v_squared * depth));
+}
 
 /// The same for a grain and a plane: its height above touching is gap + speed t + ½ pull t².
 double first_contact_with_plane(double gap, double speed, double pull);

@@ -37,6 +37,7 @@ class Meetings {
 
   /// The train that a collision of i < j at time t continues; nothing if it begins one.
   const Meeting* running(std::size_t i, std::size_t j, double t) const {
+    if (contact_time_ <= 0) return nullptr;
     for (const auto& m : of_[i])
       if (static_cast<std::size_t>(m.other) == j && runs(m, t)) return &m;
     return nullptr;
