@@ -157,7 +157,7 @@ void draw_note(Painter& painter, const Frame& frame, const Note& note) {
   const Point middle = note.fraction ? Point{frame.rect.left + note.x * frame.rect.width(),
                                              frame.rect.bottom - note.y * frame.rect.height()}
                                      : frame.at(note.x, note.y);
-  if (!frame.rect.contains(middle))
+  if (!frame.rect.contains(middle, 0.01))
     throw InputError(fmt::format("note \"{}\" lies outside its panel", note.text));
   const Rect room = frame.rect.grown(-2);
   const double height = text.ascent + text.descent;
