@@ -122,7 +122,10 @@ std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {
   std::vector<std::string> comments{recipe.title};
   comments.insert(comments.end(), table.comments.begin(), table.comments.end());
   io::Csv csv(comments, {"panel", "series", "x", "y", "x_err", "y_err"});
-  for (const auto& row : table.rows) csv.row({row.panel, row.series}, {row.x, row.y, row.x_err, row.y_err});
+  // An error of exactly 0, such as of a mean over runs that all have the same, is one that nobody knows.
+  const auto known = [](std::optional<double> error) { return error && *error > 0 ? error : std::nullopt; };
+  for (const auto& row : table.rows)
+    csv.row({row.panel, row.series}, {row.x, row.y, known(row.x_err), known(row.y_err)});
   return csv.text();
 }
 
@@ -160,7 +163,8 @@ std::vector<std::string> make_figure(const fs::path& file, const fs::path& direc
                                      const figures::FigureContext& context,
                                      const std::function<bool(double)>& progress) {
   const Recipe recipe = read_recipe(file);
-  const auto table = make_table(recipe, file, directory, context, progress);
+  auto table = make_table(recipe, file, directory, context, progress);
+  for (const auto& ratio : recipe.data.ratios) figures::draw_ratio(ratio, table);
   const auto beside = [&](const char* extension) { return directory / (file.stem().string() + extension); };
   // A table of the user's own may stand where the figure's would go: it stays as it is.
   std::error_code error;
