@@ -128,6 +128,7 @@ class Layouter {
       for (const auto& inset : figure_.panels[i].insets)
         for (const auto& s : inset.plot.series) found.push_back(&s);
     }
+    std::stable_partition(found.begin(), found.end(), [](const Series* s) { return !is_doubtful(s->name); });
     return found;
   }
 
@@ -321,7 +322,8 @@ class Layouter {
     std::vector<Occupancy> occupied;
     for (std::size_t i = 0; i < n; ++i) {
       const Frame frame{frames_[i], axes_[i]->x(), axes_[i]->y()};
-      Painter painter{out.list, look_, occupied.emplace_back(frames_[i]), static_cast<int>(i)};
+      Painter painter{out.list, look_, occupied.emplace_back(frames_[i]), static_cast<int>(i),
+                      figure_.panels[i].map.has_value()};
       draw_marks(painter, frame, figure_.panels[i], looks_);
       for (const Rect& text : occupied.back().texts())
         out.boxes.push_back({Box::Kind::note, text, static_cast<int>(i), ""});

@@ -49,7 +49,8 @@ struct Painter {
   DisplayList& list;
   const Look& look;
   Occupancy& occupied;
-  int panel = -1;  ///< for the tags of what is drawn; -1: an inset
+  int panel = -1;         ///< for the tags of what is drawn; -1: an inset
+  bool over_map = false;  ///< lines must show on any colour
 };
 
 /// What each axis must show of these series.
