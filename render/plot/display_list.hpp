@@ -69,10 +69,34 @@ struct ClipEnd {};
 
 using Item = std::variant<FillItem, StrokeItem, GlyphRun, DotsItem, ClipBegin, ClipEnd>;
 
+/// What a stretch of items stands for, so that a reader of the list can tell data from furniture (referee.hpp).
+/// Back ends do not look at it.
+struct Tag {
+  enum class Kind {
+    marker,  ///< one point of a series
+    dots,    ///< a cloud
+    curve,   ///< a line, an outline, a band's edge
+    beyond,  ///< an arrow at the frame for points outside
+    sample,  ///< of a legend
+    named    ///< a name beside the curve itself
+  };
+  Kind kind = Kind::marker;
+  int panel = 0;                    ///< counted from 0; -1: the whole figure's, or an inset's
+  std::string series;               ///< its name; of a sample the label
+  std::size_t points = 0;           ///< of the series that it stands for
+  std::size_t first = 0, last = 0;  ///< items [first, last)
+};
+
 struct DisplayList {
   double width = 0, height = 0;  ///< of the page, points
   Color background = Color::hex(0xffffff);
   std::vector<Item> items;
+  std::vector<Tag> tags;
+
+  /// What was added since `first` is this.
+  void tag(Tag::Kind kind, int panel, const std::string& series, std::size_t points, std::size_t first) {
+    if (items.size() > first) tags.push_back({kind, panel, series, points, first, items.size()});
+  }
 
   void fill(Path path, Color color) { items.emplace_back(FillItem{std::move(path), color}); }
   void stroke(Path path, Stroke s, Color color) {

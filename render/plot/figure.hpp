@@ -38,6 +38,7 @@ struct Series {
   std::vector<double> x, y;
   std::vector<double> x_err, y_err;  ///< empty or as long as x; NaN where not known
   bool faint = false;                ///< its lines are only hinted at
+  bool hollow = false;  ///< its markers are hollow and not joined: points that averages do not vouch for
   // Automatic where absent: counted through the orders of style.hpp
   std::optional<int> color, marker, dash;
 };
@@ -70,10 +71,13 @@ enum class Place {
   bottom_left,
   bottom_right,
   top,
-  off
-};  ///< top: above the frame
+  off,
+  direct
+};  ///< top: above the frame; direct: of a legend, names at the curves themselves
 
-inline bool in_corner(Place p) { return p != Place::automatic && p != Place::top && p != Place::off; }
+inline bool in_corner(Place p) {
+  return p != Place::automatic && p != Place::top && p != Place::off && p != Place::direct;
+}
 
 /// A quantity over the plane, as colours of cells.
 struct Map {
@@ -82,6 +86,7 @@ struct Map {
   std::optional<double> low, high;  ///< of the colours; automatic where absent
   std::string label;                ///< of the colour bar, with its unit
   bool diverging = false;           ///< for values of both signs: white is 0
+  bool log = false;                 ///< values are decimal logarithms; the bar shows what they are of
   int contours = 0;                 ///< lines of equal value, evenly between the ends of the colours
 };
 
@@ -111,7 +116,8 @@ struct Inset {
 };
 
 struct Panel : Plot {
-  std::string label;  ///< "a": set as (a)
+  std::string label;       ///< "a": set as (a)
+  std::string parameters;  ///< what was held fixed, behind label and title above the frame
   std::vector<Inset> insets;
   Place legend = Place::automatic;
 };
@@ -121,10 +127,14 @@ enum class Legend { automatic, each, common, off };  ///< automatic: common if t
 struct Figure {
   double width = 86;             ///< mm
   std::optional<double> height;  ///< mm; from `aspect` where absent
-  double aspect = 0.75;          ///< height of a panel's frame over its width
+  std::optional<double>
+      aspect;  ///< height of a panel's frame over its width; absent: 0.75, less for wide frames
   Style style = Style::journal;
   int columns = 0;                        ///< 0: one up to 100 mm or for one panel, two otherwise
   bool share_x = false, share_y = false;  ///< one range per column / per row; labels only at the outer panels
+  bool own_ranges = false;                ///< otherwise panels whose axes have the same label have one range
+  std::vector<std::pair<std::string, std::string>>
+      words;  ///< parts of names and how a legend of factors shows them
   Legend legend = Legend::automatic;
   std::vector<Panel> panels;
   std::string source;  ///< what it was made from, named in messages about it; may be empty

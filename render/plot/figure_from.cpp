@@ -6,7 +6,10 @@
 #include <map>
 
 #include "common/error.hpp"
+#include "plot/density.hpp"
+#include "plot/factors.hpp"
 #include "plot/map.hpp"
+#include "plot/parameters.hpp"
 #include "plot/recipe.hpp"
 
 namespace chute::plot {
@@ -50,6 +53,8 @@ class Builder {
     figure.width = recipe_.width, figure.height = recipe_.height, figure.aspect = recipe_.aspect;
     figure.style = recipe_.style, figure.columns = static_cast<int>(recipe_.columns);
     figure.share_x = recipe_.share_x, figure.share_y = recipe_.share_y, figure.legend = recipe_.legend;
+    figure.own_ranges = recipe_.own_ranges;
+    for (const auto& word : recipe_.words) figure.words.emplace_back(word.name, word.label);
     check_recipe();
     for (const auto& panel : recipe_.panels) figure.panels.push_back(make_panel(panel));
     for (const auto& name : names_) {
@@ -164,6 +169,9 @@ class Builder {
       if (kind == KindChoice::automatic) kind = recipe_.kind;
       if (kind == KindChoice::automatic) kind = s.x.size() > 80 ? KindChoice::line : KindChoice::both;
       s.kind = static_cast<Kind>(static_cast<int>(kind) - 1);
+      s.hollow = is_told_hollow(table_.comments, panel, s.name);
+      // points that averages do not vouch for are not joined, nor drawn as a line of their own
+      if (is_doubtful(s.name) && !own && s.kind != Kind::dots) s.kind = Kind::markers;
       if (own) {
         s.label = own->label;
         if (own->color >= 0) s.color = own->color;
@@ -238,6 +246,7 @@ class Builder {
   Panel make_panel(const PanelRecipe& p) const {
     Panel panel;
     panel.label = p.tag.value_or(p.label), panel.title = p.title, panel.legend = p.legend;
+    panel.parameters = p.parameters.value_or(parameters_of(table_.comments, p.label));
     panel.x = make_axis(recipe_.x, p.x), panel.y = make_axis(recipe_.y, p.y);
     panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
     panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
@@ -252,6 +261,7 @@ class Builder {
       };
       tight(panel.x, panel.map->x), tight(panel.y, panel.map->y);
     }
+    draw_crowd_as_density(panel);
     if (!panel.x.names.empty()) set_side_by_side(panel.series);
     for (const auto& i : p.insets) {
       Inset& inset = panel.insets.emplace_back();

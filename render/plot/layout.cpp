@@ -13,6 +13,7 @@
 #include "plot/inset.hpp"
 #include "plot/legend.hpp"
 #include "plot/map.hpp"
+#include "plot/names.hpp"
 
 namespace chute::plot {
 namespace {
@@ -36,13 +37,14 @@ class Layouter {
     rows_ = (n + columns_ - 1) / columns_;
     page_.width = figure.width * points_per_mm;
     headroom_.assign(figure.panels.size(), 0);
+    without_names_.assign(figure.panels.size(), false);
     make_axes();
     make_legends();
   }
 
   Layout run() {
     // a legend that finds no room inside goes above its frame, which moves everything: until all have a place
-    for (std::size_t attempt = 0; attempt <= 5 * legends_.size() + 2; ++attempt) {
+    for (std::size_t attempt = 0; attempt <= 5 * legends_.size() + figure_.panels.size() + 2; ++attempt) {
       solve();
       Layout result = draw();
       if (settled_) return result;
@@ -72,8 +74,8 @@ class Layouter {
   std::vector<Rect> frames_;
   std::vector<Margins> row_margins_, column_margins_;
   std::vector<double> axes_top_;  // what ticks and factors of each panel need above its frame
-  Place label_place_ = Place::top_left;
   std::vector<double> headroom_;
+  std::vector<bool> without_names_;  // panels whose curves have no room for names beside them
   bool settled_ = false;
 
   int column(std::size_t panel) const { return static_cast<int>(panel) % columns_; }
@@ -90,6 +92,12 @@ class Layouter {
       span.high += share * (span.high - span.low);
   }
 
+  /// Do two panels show the same quantity along an axis? Then a reader compares them, and they have one range.
+  bool is_same(const Axis& a, const Axis& b) const {
+    return !figure_.own_ranges && !a.label.empty() && a.label == b.label && a.scale == b.scale &&
+           a.names == b.names;
+  }
+
   void make_axes() {
     const auto& panels = figure_.panels;
     axes_.clear();
@@ -97,60 +105,140 @@ class Layouter {
     for (const auto& p : panels) extents.push_back(extents_of(p));
     for (std::size_t i = 0; i < panels.size(); ++i) {
       Extent ex = extents[i].x, ey = extents[i].y;
+      double headroom = headroom_[i];
       for (std::size_t k = 0; k < panels.size(); ++k) {
-        if (figure_.share_x && column(k) == column(i)) ex.include(extents[k].x);
-        if (figure_.share_y && row(k) == row(i)) ey.include(extents[k].y);
+        if ((figure_.share_x && column(k) == column(i)) || is_same(panels[i].x, panels[k].x))
+          ex.include(extents[k].x);
+        if ((figure_.share_y && row(k) == row(i)) || is_same(panels[i].y, panels[k].y))
+          ey.include(extents[k].y), headroom = std::max(headroom, headroom_[k]);
       }
       Span y = span_of(panels[i].y, ey);
-      raise(y, headroom_[i]);
+      raise(y, headroom);
       const bool show_x = !figure_.share_x || !has_below(i), show_y = !figure_.share_y || column(i) == 0;
       axes_.push_back(std::make_unique<Axes>(panels[i], span_of(panels[i].x, ex), y, sizes_, show_x, show_y));
     }
   }
 
-  /// Series names that a panel shows; those in insets too.
-  static void add_series(LegendBlock& block, const Panel& panel) {
-    for (const auto& s : panel.series) block.add(s);
-    for (const auto& inset : panel.insets)
-      for (const auto& s : inset.plot.series) block.add(s);
+  /// Series of a panel, or of all (-1); those in insets too.
+  std::vector<const Series*> series_of(int panel) const {
+    std::vector<const Series*> found;
+    for (std::size_t i = 0; i < figure_.panels.size(); ++i) {
+      if (panel >= 0 && panel != static_cast<int>(i)) continue;
+      for (const auto& s : figure_.panels[i].series) found.push_back(&s);
+      for (const auto& inset : figure_.panels[i].insets)
+        for (const auto& s : inset.plot.series) found.push_back(&s);
+    }
+    std::stable_partition(found.begin(), found.end(), [](const Series* s) { return !is_doubtful(s->name); });
+    return found;
+  }
+
+  /// Are the curves of this panel named where they run?
+  bool has_names(std::size_t i) const {
+    if (without_names_[i] || figure_.legend == Legend::off || figure_.panels[i].legend == Place::off)
+      return false;
+    if (figure_.panels[i].legend == Place::direct) return true;
+    const auto factors = factors_in(figure_, has_common_legend(figure_) ? -1 : static_cast<int>(i));
+    return factors && factors->has_lines;
   }
 
   void make_legends() {
     const auto& panels = figure_.panels;
+    legends_.clear();
     if (figure_.legend == Legend::off) return;
+    const auto fill_block = [&](LegendBlock& block, int panel, bool colors) {
+      const auto series = series_of(panel);
+      if (const auto factors = factors_in(figure_, panel))
+        block.add(figure_, *factors, series, colors);
+      else
+        for (const auto* s : series) block.add(*s);
+    };
     if (has_common_legend(figure_)) {
       LegendPlan plan{{look_, looks_}, -1, Place::automatic};
-      for (const auto& p : panels) add_series(plan.block, p);
+      bool named = true;
+      for (std::size_t i = 0; i < panels.size(); ++i) named = named && has_names(i);
+      fill_block(plan.block, -1, !named);
       if (plan.block.count() > 1) legends_.push_back(std::move(plan));
       return;
     }
     for (std::size_t i = 0; i < panels.size(); ++i) {
       if (panels[i].legend == Place::off) continue;
-      LegendPlan plan{{look_, looks_}, static_cast<int>(i), panels[i].legend, panels[i].legend == Place::top};
-      add_series(plan.block, panels[i]);
-      bool asked = panels[i].legend != Place::automatic;
+      if (panels[i].legend == Place::direct && has_names(i)) continue;
+      const auto place = panels[i].legend == Place::direct ? Place::automatic : panels[i].legend;
+      LegendPlan plan{{look_, looks_}, static_cast<int>(i), place, place == Place::top};
+      fill_block(plan.block, static_cast<int>(i), !has_names(i));
+      bool asked = place != Place::automatic;
       for (const auto& s : panels[i].series) asked = asked || (s.label && !s.label->empty());
       if (plan.block.count() > (asked ? 0 : 1)) legends_.push_back(std::move(plan));
     }
   }
 
-  bool labels_above() const {
-    return label_place_ == Place::top || std::any_of(figure_.panels.begin(), figure_.panels.end(),
-                                                     [](const Panel& p) { return !p.title.empty(); });
+  /// Names at the curves of a panel: of its series, or of the factor that colours tell.
+  std::vector<CurveName> names_in(std::size_t i) const {
+    std::vector<CurveName> names;
+    const auto& panel = figure_.panels[i];
+    const auto factors = factors_in(figure_, has_common_legend(figure_) ? -1 : static_cast<int>(i));
+    for (const auto& s : panel.series) {
+      std::string text = s.label.value_or(label_from_name(s.name));
+      if (factors && panel.legend != Place::direct) {
+        const auto at = factors->of.find(s.name);
+        if (at == factors->of.end()) continue;
+        text = label_of_factor(figure_, factors->colors[static_cast<std::size_t>(at->second.color)]);
+      }
+      if (text.empty() || is_doubtful(s.name)) continue;
+      const auto known = std::find_if(names.begin(), names.end(), [&](auto& n) { return n.text == text; });
+      if (known == names.end())
+        names.push_back({text, {&s}});
+      else
+        known->curves.push_back(&s);
+    }
+    return names;
   }
-  std::string heading(const Panel& p) const {
-    const auto label = p.label.empty() ? "" : "(" + p.label + ")";
-    return label + (label.empty() || p.title.empty() ? "" : " ") + p.title;
+
+  /// What stands above a panel: its letter, what it shows and what was held fixed, in as many lines as it takes.
+  static std::string heading(const Panel& p) {
+    std::string text = p.label.empty() ? "" : "(" + p.label + ")";
+    for (const auto* part : {&p.title, &p.parameters})
+      if (!part->empty())
+        text += (text.empty() ? "" : part == &p.title || p.title.empty() ? " " : ", ") + *part;
+    return text;
   }
-  double heading_height(const Panel& p) const {
-    if (!labels_above() || heading(p).empty()) return 0;
-    const auto text = set_text(heading(p), look_.panel_size);
-    return text.ascent + text.descent + sizes_.gap;
+  std::vector<TextBox> heading_lines(const Panel& p, double width) const {
+    const auto text = heading(p);
+    std::vector<TextBox> lines;
+    if (text.empty()) return lines;
+    std::string line;
+    for (std::size_t at = 0; at < text.size();) {
+      const auto comma = text.find(", ", at);
+      const auto end = comma == std::string::npos ? text.size() : comma + 1;
+      const auto part = text.substr(at, end - at);
+      const auto longer = line.empty() ? part : line + " " + part;
+      if (!line.empty() && set_text(longer, look_.panel_size).width > width) {
+        lines.push_back(set_to_fit(line, look_.panel_size, width));
+        line = part;
+      } else {
+        line = longer;
+      }
+      at = comma == std::string::npos ? text.size() : comma + 2;
+    }
+    lines.push_back(set_to_fit(line, look_.panel_size, width));
+    return lines;
+  }
+  double heading_height(const Panel& p, double width) const {
+    double height = 0;
+    for (const auto& line : heading_lines(p, width)) height += line.ascent + line.descent + sizes_.gap;
+    return height;
   }
   double legend_height(int panel) const {
     for (const auto& l : legends_)
       if (l.panel == panel && l.above) return l.block.height(l.columns) + sizes_.gap;
     return 0;
+  }
+
+  /// Frames are three quarters as high as wide, but not higher than a wide one needs to show its data.
+  double aspect_for(double width) const {
+    constexpr double usual = 0.75,
+                     highest = 18.5;  // the latter in heights of the tick labels: 58 mm in a journal
+    return figure_.aspect.value_or(std::min(usual, highest * look_.tick_size / width));
   }
 
   /// Finds frames such that every text has its room.
@@ -164,7 +252,7 @@ class Layouter {
     };
     double width = page_.width / columns_ * 0.8,
            height = figure_.height.value_or(60) * points_per_mm / rows_ * 0.7;
-    if (!figure_.height) height = figure_.aspect * width;
+    if (!figure_.height) height = aspect_for(width) * width;
     for (int pass = 0; pass < 12; ++pass) {
       if (pass < 4) no_margins();  // near the answer; from here on margins only grow, so that this ends
       const double old_width = width, old_height = height;
@@ -173,7 +261,7 @@ class Layouter {
         if (figure_.panels[i].map)
           m.right = std::max(m.right, bar_width(look_, *figure_.panels[i].map, height));
         axes_top_[i] = m.top;
-        m.top += heading_height(figure_.panels[i]) + above_frame(static_cast<int>(i), width);
+        m.top += heading_height(figure_.panels[i], width) + above_frame(static_cast<int>(i), width);
         Margins &c = column_margins_[static_cast<std::size_t>(column(i))],
                 &r = row_margins_[static_cast<std::size_t>(row(i))];
         c.widen(m);
@@ -185,7 +273,8 @@ class Layouter {
       const double top = above_figure();
       used = 2 * margin + between * (rows_ - 1) + top;
       for (const auto& m : row_margins_) used += m.top + m.bottom;
-      page_.height = figure_.height ? *figure_.height * points_per_mm : used + rows_ * figure_.aspect * width;
+      page_.height =
+          figure_.height ? *figure_.height * points_per_mm : used + rows_ * aspect_for(width) * width;
       height = (page_.height - used) / rows_;
       if (width < 4 * look_.tick_size || height < 3 * look_.tick_size)
         throw InputError(
@@ -233,7 +322,8 @@ class Layouter {
     std::vector<Occupancy> occupied;
     for (std::size_t i = 0; i < n; ++i) {
       const Frame frame{frames_[i], axes_[i]->x(), axes_[i]->y()};
-      Painter painter{out.list, look_, occupied.emplace_back(frames_[i])};
+      Painter painter{out.list, look_, occupied.emplace_back(frames_[i]), static_cast<int>(i),
+                      figure_.panels[i].map.has_value()};
       draw_marks(painter, frame, figure_.panels[i], looks_);
       for (const Rect& text : occupied.back().texts())
         out.boxes.push_back({Box::Kind::note, text, static_cast<int>(i), ""});
@@ -245,63 +335,48 @@ class Layouter {
       if (figure_.panels[i].map)
         draw_bar(out.list, look_, frames_[i], *figure_.panels[i].map, static_cast<int>(i), out.boxes);
     }
-    put_headings(out, occupied);
+    put_headings(out);
     for (std::size_t i = 0; i < n; ++i)
       for (const auto& inset : figure_.panels[i].insets)
         draw_inset(out, inset, frames_[i], static_cast<int>(i), look_, looks_, occupied[i]);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Frame frame{frames_[i], axes_[i]->x(), axes_[i]->y()};
+      if (!has_names(i) || put_names(out, names_in(i), frame, figure_.panels[i], looks_, occupied[i], look_,
+                                     static_cast<int>(i)))
+        continue;
+      // all of one legend go together
+      if (has_common_legend(figure_))
+        without_names_.assign(n, true);
+      else
+        without_names_[i] = true;
+      make_legends();
+      settled_ = false;
+      return out;
+    }
     for (auto& legend : legends_) put_legend(out, legend, occupied);
     return out;
   }
 
-  /// (a), (b) in the same corner of all panels, where none of them covers data; above the frames if there is
-  /// no such corner, or if there are titles.
-  void put_headings(Layout& out, std::vector<Occupancy>& occupied) {
+  /// (a), (b) and what was held fixed: in all figures at the left above the frame, in a row at one height.
+  void put_headings(Layout& out) {
     const auto& panels = figure_.panels;
-    const bool any =
-        std::any_of(panels.begin(), panels.end(), [&](const Panel& p) { return !heading(p).empty(); });
-    if (!any) return;
-    std::vector<TextBox> texts;
-    for (const auto& p : panels) texts.push_back(set_text(heading(p), look_.panel_size));
-    if (!labels_above()) {
-      std::optional<Place> found;
-      for (Place place : {Place::top_left, Place::top_right, Place::bottom_left, Place::bottom_right}) {
-        bool good = true;
-        for (std::size_t i = 0; i < panels.size() && good; ++i)
-          good = texts[i].empty() || occupied[i].room_for(texts[i].width, texts[i].ascent + texts[i].descent,
-                                                          inset_from_frame, place);
-        if (good) {
-          found = place;
-          break;
-        }
-      }
-      if (!found) {
-        label_place_ = Place::top, settled_ = false;
-        return;
-      }
-      for (std::size_t i = 0; i < panels.size(); ++i) {
-        if (texts[i].empty()) continue;
-        const Point corner =
-            occupied[i].corner(texts[i].width, texts[i].ascent + texts[i].descent, inset_from_frame, *found);
-        put_heading(out, texts[i], {corner.x(), corner.y() + texts[i].ascent}, i);
-        occupied[i].mark_text(texts[i].box_at({corner.x(), corner.y() + texts[i].ascent}));
-      }
-      return;
-    }
+    std::vector<std::vector<TextBox>> all;
+    for (std::size_t i = 0; i < panels.size(); ++i)
+      all.push_back(heading_lines(panels[i], frames_[i].width()));
     for (std::size_t i = 0; i < panels.size(); ++i) {
-      if (texts[i].empty()) continue;
-      texts[i] = set_to_fit(heading(panels[i]), look_.panel_size, frames_[i].width());
-      const auto& rm = row_margins_[static_cast<std::size_t>(row(i))];
-      const double top = frames_[i].top - rm.top;  // all headings of a row at one height
-      double ascent = 0;
-      for (std::size_t k = 0; k < panels.size(); ++k)
-        if (row(k) == row(i)) ascent = std::max(ascent, texts[k].ascent);
-      put_heading(out, texts[i], {frames_[i].left, top + ascent}, i);
+      double top = frames_[i].top - row_margins_[static_cast<std::size_t>(row(i))].top;
+      for (std::size_t line = 0; line < all[i].size(); ++line) {
+        double ascent = 0, descent = 0;
+        for (std::size_t k = 0; k < panels.size(); ++k)
+          if (row(k) == row(i) && line < all[k].size())
+            ascent = std::max(ascent, all[k][line].ascent), descent = std::max(descent, all[k][line].descent);
+        const auto& text = all[i][line];
+        const Point at{frames_[i].left, top + ascent};
+        draw_text(out.list, text, at, look_.ink);
+        out.boxes.push_back({Box::Kind::title, text.box_at(at), static_cast<int>(i), heading(panels[i])});
+        top += ascent + descent + sizes_.gap;
+      }
     }
-  }
-  void put_heading(Layout& out, const TextBox& text, Point at, std::size_t i) {
-    draw_text(out.list, text, at, look_.ink);
-    out.boxes.push_back({figure_.panels[i].title.empty() ? Box::Kind::panel_label : Box::Kind::title,
-                         text.box_at(at), static_cast<int>(i), heading(figure_.panels[i])});
   }
 
   void put_legend(Layout& out, LegendPlan& legend, std::vector<Occupancy>& occupied) {

@@ -9,7 +9,18 @@ namespace chute::plot {
 
 /// Where a text or a frame came to stand: what tests check for overlaps.
 struct Box {
-  enum class Kind { frame, tick_label, axis_label, factor, title, panel_label, legend, inset, note };
+  enum class Kind {
+    frame,
+    tick_label,
+    axis_label,
+    factor,
+    title,
+    panel_label,
+    legend,
+    inset,
+    note,
+    name
+  };  ///< name: at a curve
   Kind kind;
   Rect rect;  ///< page, points
   int panel;  ///< counted from 0; -1: the whole figure's

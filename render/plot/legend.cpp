@@ -4,17 +4,65 @@
 
 namespace chute::plot {
 
+std::string label_of_factor(const Figure& figure, const std::string& value) {
+  for (const auto& [name, label] : figure.words)
+    if (name == value) return label;
+  return label_from_name(value);
+}
+
+bool LegendBlock::has(const std::string& name) const {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
+}
+
+void LegendBlock::put(const std::string& name, Kind kind, const SeriesLook& look, const std::string& label) {
+  if (label.empty() || has(name)) return;
+  entries_.push_back({name, kind, look, set_text(label, look_->legend_size), label});
+}
+
 void LegendBlock::add(const Series& series) {
-  for (const auto& e : entries_)
-    if (e.series->name == series.name) return;
-  const auto source = series.label.value_or(label_from_name(series.name));
-  if (source.empty()) return;
-  entries_.push_back({&series, set_text(source, look_->legend_size), source});
+  const auto& ink = looks_->at(series.name);
+  if (is_doubtful(series.name) && !series.label) {
+    SeriesLook any;
+    any.color = look_->ink, any.hollow = true;
+    const auto word = series.name.substr(base_name(series.name).size() + 1);
+    put(" " + word, Kind::markers, any, word == "apart" ? "starts that part" : "not settled");
+    return;
+  }
+  put(series.name, series.kind, ink, series.label.value_or(label_from_name(series.name)));
+}
+
+void LegendBlock::add(const Figure& figure, const Factors& factors, const std::vector<const Series*>& series,
+                      bool colors) {
+  const auto any_of = [&](auto holds) -> const Series* {
+    for (const auto* s : series)
+      if (const auto at = factors.of.find(s->name); at != factors.of.end() && holds(at->second, *s)) return s;
+    return nullptr;
+  };
+  for (std::size_t k = 0; colors && k < factors.colors.size(); ++k) {
+    const auto is_this = [&](const Factors::Place& at) { return at.color == static_cast<int>(k); };
+    const auto has_shape = [](const Series& s) { return s.kind == Kind::markers || s.kind == Kind::both; };
+    const Series* s = any_of([&](auto& at, auto& of) { return is_this(at) && has_shape(of); });
+    if (!s) s = any_of([&](auto& at, auto&) { return is_this(at); });
+    if (!s) continue;
+    SeriesLook ink = looks_->at(s->name);
+    ink.fill = Fill::filled, ink.hollow = false, ink.dash = 0;
+    put(factors.colors[k], has_shape(*s) ? Kind::markers : s->kind, ink,
+        label_of_factor(figure, factors.colors[k]));
+  }
+  for (std::size_t k = 0; k < factors.styles.size(); ++k) {
+    const Series* s = any_of([&](auto& at, auto&) { return at.style == static_cast<int>(k); });
+    if (!s) continue;
+    SeriesLook ink = looks_->at(s->name);
+    ink.color = look_->ink, ink.marker = 0;
+    put(factors.styles[k], s->kind, ink, label_of_factor(figure, factors.styles[k]));
+  }
+  for (const auto* s : series)
+    if (!factors.of.count(s->name)) add(*s);
 }
 
 double LegendBlock::sample() const {
   const bool only_points = std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) {
-    return e.series->kind == Kind::markers || e.series->kind == Kind::dots;
+    return e.kind == Kind::markers || e.kind == Kind::dots;
   });
   return (only_points ? 0.8 : 2.1) * look_->legend_size;
 }
@@ -62,7 +110,9 @@ void LegendBlock::draw(DisplayList& list, Point at, int columns, int panel, std:
     if (row == 0 && column > 0) x += widths[column - 1] + 2.5 * gap();
     const double middle = at.y() + (static_cast<double>(row) + 0.5) * row_height();
     const auto& e = entries_[i];
-    draw_sample(list, *look_, *e.series, looks_->at(e.series->name), {x, middle}, sample());
+    const std::size_t first = list.items.size();
+    draw_sample(list, *look_, e.kind, e.look, {x, middle}, sample());
+    list.tag(Tag::Kind::sample, panel, e.source, 0, first);
     // on a common baseline, the sample at the height of a small letter's middle
     draw_text(list, e.text, {x + sample() + gap(), middle + 0.24 * look_->legend_size}, look_->ink);
   }

@@ -31,14 +31,20 @@ double level_of(double value, const MapRange& range) {
   return std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
 }
 
+/// What the bar's ends mean: of logarithms, what they are of.
+Span span_of_bar(const Map& map) {
+  const auto range = range_of(map);
+  if (map.log) return {std::pow(10, range.low), std::pow(10, range.high), Scale::log};
+  return {range.low, range.high, Scale::linear};
+}
+
 struct Bar {
   Ticks ticks;
   std::vector<TextBox> texts;
   TextBox label, factor;
   double numbers = 0;  // their width
   Bar(const Look& look, const Map& map, double height) {
-    const auto range = range_of(map);
-    ticks = ticks_for(Span{range.low, range.high, Scale::linear}, height, look.tick_size, false);
+    ticks = ticks_for(span_of_bar(map), height, look.tick_size, false);
     for (const auto& tick : ticks.major) {
       texts.push_back(set_text(tick.label, look.tick_size));
       numbers = std::max(numbers, texts.back().width);
@@ -147,7 +153,7 @@ double bar_width(const Look& look, const Map& map, double height) {
 void draw_bar(DisplayList& list, const Look& look, const Rect& frame, const Map& map, int panel,
               std::vector<Box>& boxes) {
   const Bar bar(look, map, frame.height());
-  const auto range = range_of(map);
+  const auto span = span_of_bar(map);
   const double left = frame.right + bar_gap * look.tick_size, right = left + bar_thickness * look.tick_size,
                gap = gap_of(look);
   for (int l = 0; l < levels; ++l) {
@@ -161,8 +167,7 @@ void draw_bar(DisplayList& list, const Look& look, const Rect& frame, const Map&
   outline.rectangle({left, frame.top, right, frame.bottom});
   list.stroke(std::move(outline), {look.hairline, {}, Cap::butt, Join::miter}, look.ink);
   for (std::size_t t = 0; t < bar.texts.size(); ++t) {
-    const double y =
-        frame.bottom - frame.height() * (bar.ticks.major[t].value - range.low) / (range.high - range.low);
+    const double y = frame.bottom - frame.height() * span.fraction(bar.ticks.major[t].value);
     Path tick;
     tick.move({right - 0.6 * look.major_tick, y}).line({right, y});
     list.stroke(std::move(tick), {look.hairline, {}, Cap::butt, Join::miter}, look.ink);

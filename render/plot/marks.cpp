@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
@@ -86,15 +87,17 @@ class SeriesPainter {
     } else if (has_line(s_.kind)) {
       for (std::size_t i = 0; i < s_.x.size(); ++i) points.push_back(frame_.at(s_.x[i], s_.y[i]));
     }
-    if (points.empty()) return;
+    if (points.empty() || (s_.hollow && s_.kind == Kind::both)) return;
     Path path;
     add_polyline(path, points, frame_.rect);
+    const std::size_t first = p_.list.items.size();
     // with markers the line stays solid: the markers tell the series apart
     const bool dashed = s_.kind == Kind::line || s_.kind == Kind::band || s_.kind == Kind::steps;
     p_.list.stroke(path,
                    {width, dashed ? dash_pattern(ink_.dash, width) : std::vector<double>{}, Cap::butt,
                     has_bins(s_.kind) ? Join::miter : Join::round},
                    s_.faint ? ink_.color.with_alpha(0.35) : ink_.color);
+    p_.list.tag(Tag::Kind::curve, p_.panel, s_.name, 0, first);
     mark_polyline(p_.occupied, points, frame_.rect, width);
     if (s_.kind == Kind::steps) mark_bins();
   }
@@ -110,18 +113,20 @@ class SeriesPainter {
     item.color = ink_.color;
     for (std::size_t i = 0; i < s_.x.size(); ++i) {
       const Point at = frame_.at(s_.x[i], s_.y[i]);
-      if (!frame_.rect.contains(at, 1)) continue;
+      if (!is_inside(i)) continue;
       item.at.push_back(at);
       p_.occupied.mark(Rect{at.x(), at.y(), at.x(), at.y()}.grown(p_.look.dot_radius));
     }
+    const std::size_t first = p_.list.items.size(), drawn = item.at.size();
     if (!item.at.empty()) p_.list.items.emplace_back(std::move(item));
+    p_.list.tag(Tag::Kind::dots, p_.panel, s_.name, drawn, first);
   }
 
   void error_bars() {
     if (s_.kind == Kind::line || s_.kind == Kind::dots || s_.kind == Kind::band) return;
     Path path;
     for (std::size_t i = 0; i < s_.x.size(); ++i) {
-      if (!frame_.rect.contains(frame_.at(s_.x[i], s_.y[i]), 0.01)) continue;
+      if (!is_inside(i)) continue;
       bar(path, i, error_at(s_.y_err, i), true);
       if (!has_bins(s_.kind)) bar(path, i, error_at(s_.x_err, i), false);
     }
@@ -130,12 +135,63 @@ class SeriesPainter {
 
   void markers() {
     if (!has_markers(s_.kind)) return;
-    const auto shape = marker_shape(ink_.marker, p_.look.marker_size);
+    const auto shape = ink_.shape(p_.look.marker_size);
     for (std::size_t i = 0; i < s_.x.size(); ++i) {
       const Point at = frame_.at(s_.x[i], s_.y[i]);
-      if (!frame_.rect.contains(at, 0.01)) continue;
+      if (!is_inside(i)) continue;
+      const std::size_t first = p_.list.items.size();
       draw_marker(p_.list, p_.look, shape, ink_.color, at);
+      p_.list.tag(Tag::Kind::marker, p_.panel, s_.name, 1, first);
       p_.occupied.mark(shape.path.bounds().moved(at));
+    }
+  }
+
+  /// No point is lost: what lies outside the frame is an arrow at it, pointing there.
+  void arrows() {
+    if (s_.kind == Kind::line || s_.kind == Kind::band) return;
+    struct Beyond {
+      Point at, along;
+      std::size_t points = 0;
+    };
+    std::vector<Beyond> all;
+    for (std::size_t i = 0; i < s_.x.size(); ++i) {
+      if (!std::isfinite(s_.x[i]) || !std::isfinite(s_.y[i])) continue;
+      const double fx = side(frame_.x, s_.x[i]), fy = side(frame_.y, s_.y[i]);
+      const bool left_or_right = fx < 0 || fx > 1, up_or_down = fy < 0 || fy > 1;
+      if (!left_or_right && !up_or_down) continue;
+      if (has_bins(s_.kind) && !(s_.y[i] > 0)) continue;  // an empty bin is no point
+      const double in = 0.9 * p_.look.marker_size;        // the shaft's begin, away from the corners
+      const Rect inner = frame_.rect.grown(-in);
+      const Point place{frame_.rect.left + std::clamp(fx, 0.0, 1.0) * frame_.rect.width(),
+                        frame_.rect.bottom - std::clamp(fy, 0.0, 1.0) * frame_.rect.height()};
+      Beyond b;
+      if (up_or_down)
+        b.at = {std::clamp(place.x(), inner.left, inner.right), place.y()}, b.along = {0, fy > 1 ? -1 : 1};
+      else
+        b.at = {place.x(), std::clamp(place.y(), inner.top, inner.bottom)}, b.along = {fx > 1 ? 1 : -1, 0};
+      const auto near = std::find_if(all.begin(), all.end(), [&](const Beyond& other) {
+        return (other.at - b.at).norm() < p_.look.marker_size && (other.along - b.along).norm() < 0.1;
+      });
+      if (near == all.end())
+        b.points = 1, all.push_back(b);
+      else
+        ++near->points;
+    }
+    for (const auto& b : all) {
+      const double length = 1.9 * p_.look.marker_size, head = 0.95 * p_.look.marker_size,
+                   half = 0.42 * p_.look.marker_size;
+      const Point across{-b.along.y(), b.along.x()}, tip = b.at - 0.6 * b.along, neck = tip - head * b.along;
+      Path shaft, triangle;
+      shaft.move(tip - length * b.along).line(neck);
+      triangle.move(tip).line(neck + half * across).line(neck - half * across).close();
+      const std::size_t first = p_.list.items.size();
+      p_.list.stroke(shaft, {0.85 * p_.look.line_width, {}, Cap::butt, Join::miter}, ink_.color);
+      p_.list.fill(triangle, ink_.color);
+      p_.list.tag(Tag::Kind::beyond, p_.panel, s_.name, b.points, first);
+      Rect taken = Rect::nothing();
+      taken.include(tip), taken.include(tip - length * b.along + half * across),
+          taken.include(tip - length * b.along - half * across);
+      p_.occupied.mark(taken);
     }
   }
 
@@ -145,6 +201,11 @@ class SeriesPainter {
     path.append(shape.path, at);
     const Stroke pen{0.85 * look.line_width, {}, Cap::butt, Join::miter};
     if (shape.paint == MarkerShape::Paint::hollow) list.fill(path, look.paper);
+    if (!shape.inside.empty()) {
+      Path inside;
+      inside.append(shape.inside, at);
+      list.fill(inside, color);
+    }
     if (shape.paint == MarkerShape::Paint::filled)
       list.fill(path, color);
     else
@@ -168,6 +229,22 @@ class SeriesPainter {
   const Frame& frame_;
   const Series& s_;
   const SeriesLook& ink_;
+
+  static constexpr double edge = 0.01;  // points: on the frame counts as within
+
+  /// Where along an axis a value lies, 0 to 1 within the frame; what a logarithmic axis cannot show lies below.
+  double side(const Span& span, double value) const {
+    const double f = span.fraction(value), slack = edge / std::min(frame_.rect.width(), frame_.rect.height());
+    if (std::isnan(f) || value < span.low_limit) return -1;
+    if (value > span.high_limit) return 2;
+    return f < 0 && f > -slack ? 0 : f > 1 && f < 1 + slack ? 1 : f;
+  }
+
+  bool is_inside(std::size_t i) const {
+    if (!std::isfinite(s_.x[i]) || !std::isfinite(s_.y[i])) return false;
+    const double fx = side(frame_.x, s_.x[i]), fy = side(frame_.y, s_.y[i]);
+    return fx >= 0 && fx <= 1 && fy >= 0 && fy <= 1;
+  }
 
   void mark_bins() {
     const auto points = outline_of(frame_, s_);
@@ -234,7 +311,10 @@ namespace {
 
 /// What the series asks of the axes; what a given range of either axis hides asks for nothing.
 void include_series(Extents& e, const Plot& plot, const Series& s) {
-  const bool bins = has_bins(s.kind), marker = has_markers(s.kind) || s.kind == Kind::dots;
+  const bool bins = has_bins(s.kind);
+  const auto mark = has_markers(s.kind)    ? Extent::Mark::marker
+                    : s.kind == Kind::dots ? Extent::Mark::dot
+                                           : Extent::Mark::none;
   const auto shown = [](const Axis& axis, double v) {
     return std::isfinite(v) && (axis.scale == Scale::linear || v > 0) && !(axis.min && v < *axis.min) &&
            !(axis.max && v > *axis.max);
@@ -246,8 +326,8 @@ void include_series(Extents& e, const Plot& plot, const Series& s) {
   };
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     if (!shown(plot.x, s.x[i]) || !shown(plot.y, s.y[i])) continue;
-    e.x.include(s.x[i], plot.x.scale, marker);
-    e.y.include(s.y[i], plot.y.scale, marker);
+    e.x.include(s.x[i], plot.x.scale, mark);
+    e.y.include(s.y[i], plot.y.scale, mark);
     if (s.kind == Kind::line || s.kind == Kind::dots) continue;
     include_error(e.y, plot.y, s.y[i], error_at(s.y_err, i));
     if (!bins) include_error(e.x, plot.x, s.x[i], error_at(s.x_err, i));
@@ -273,7 +353,7 @@ Extents extents_of(const Plot& plot) {
     const double edge = e.y.low + 0.01 * (e.y.high - e.y.low);
     const auto there = std::count_if(s.y.begin(), s.y.end(), [&](double y) { return y < edge; });
     if (there > 2 && 5 * static_cast<std::size_t>(there) > s.y.size())
-      e.y.marker_low = std::min(e.y.marker_low, e.y.low);
+      e.y.dot_low = std::min(e.y.dot_low, e.y.low);
   }
   if (plot.map) {
     for (const double x : cell_edges(plot.map->x)) e.x.include(x, plot.x.scale);
@@ -321,6 +401,7 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   for (const auto& region : plot.regions) draw_region(painter, frame, plot, region);
   for (const auto& reference : plot.references) draw_reference(painter, frame, reference);
   std::vector<SeriesPainter> series;
+  series.reserve(plot.series.size());
   for (const auto& s : plot.series) series.emplace_back(painter, frame, s, looks.at(s.name));
   for (auto& s : series) s.area();
   for (auto& s : series) s.dots();
@@ -329,36 +410,35 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   painter.list.items.emplace_back(ClipEnd{});
   for (auto& s : series) s.error_bars();
   for (auto& s : series) s.markers();
+  for (auto& s : series) s.arrows();
   for (const auto& note : plot.notes) draw_note(painter, frame, note);
   for (const auto& reference : plot.references) draw_reference_label(painter, frame, reference);
 }
 
-void draw_sample(DisplayList& list, const Look& look, const Series& series, const SeriesLook& ink, Point at,
+void draw_sample(DisplayList& list, const Look& look, Kind kind, const SeriesLook& ink, Point at,
                  double width) {
   const double middle = at.x() + width / 2, half = 0.32 * look.legend_size;
-  if (series.kind == Kind::bars || series.kind == Kind::band) {
+  if (kind == Kind::bars || kind == Kind::band) {
     Path box;
-    box.rectangle({at.x() + (series.kind == Kind::bars ? 4 : 0), at.y() - half,
-                   at.x() + width - (series.kind == Kind::bars ? 4 : 0), at.y() + half});
-    list.fill(box, ink.color.with_alpha(series.kind == Kind::bars ? 0.3 : 0.25));
-    if (series.kind == Kind::bars)
-      list.stroke(box, {0.8 * look.line_width, {}, Cap::butt, Join::miter}, ink.color);
+    box.rectangle({at.x() + (kind == Kind::bars ? 4 : 0), at.y() - half,
+                   at.x() + width - (kind == Kind::bars ? 4 : 0), at.y() + half});
+    list.fill(box, ink.color.with_alpha(kind == Kind::bars ? 0.3 : 0.25));
+    if (kind == Kind::bars) list.stroke(box, {0.8 * look.line_width, {}, Cap::butt, Join::miter}, ink.color);
   }
-  if (has_line(series.kind) || series.kind == Kind::steps) {
-    const bool dashed = series.kind != Kind::both;
+  if ((has_line(kind) && !(kind == Kind::both && ink.hollow)) || kind == Kind::steps) {
+    const bool dashed = kind != Kind::both;
     Path line;
     line.move({at.x(), at.y()}).line({at.x() + width, at.y()});
     list.stroke(line,
                 {look.line_width, dashed ? dash_pattern(ink.dash, look.line_width) : std::vector<double>{}},
                 ink.color);
   }
-  if (series.kind == Kind::dots) {
+  if (kind == Kind::dots) {
     const auto shape = SeriesPainter::dot_shape(2.2 * look.dot_radius, ink.marker);
     list.items.emplace_back(DotsItem{shape, {{middle, at.y()}}, ink.color});
   }
-  if (has_markers(series.kind))
-    SeriesPainter::draw_marker(list, look, marker_shape(ink.marker, look.marker_size), ink.color,
-                               {middle, at.y()});
+  if (has_markers(kind))
+    SeriesPainter::draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
 }
 
 }  // namespace chute::plot

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "plot/display_list.hpp"
+#include "plot/factors.hpp"
 #include "plot/figure.hpp"
 #include "plot/occupancy.hpp"
 #include "plot/scale.hpp"
@@ -26,20 +27,30 @@ struct Frame {
 struct SeriesLook {
   Color color;
   int marker = 0, dash = 0;
+  Fill fill = Fill::own;
+  bool hollow = false;  ///< whatever the marker: points that are not vouched for
+
+  MarkerShape shape(double size) const { return marker_shape(marker, size, hollow ? Fill::hollow : fill); }
 };
 
 /// One legend for all panels: asked for, or the panels show mostly the same series.
 bool has_common_legend(const Figure& figure);
 
 /// One look per name, the same in every panel: colours and markers in the order in which names first appear,
-/// dashes among those drawn as lines. Panels with legends of their own start anew. "NAME fit" takes the
-/// colour of NAME.
+/// dashes among those drawn as lines. Panels with legends of their own start anew, except that one quantity at different
+/// values looks different everywhere. Names that make a table (factors.hpp) look alike along its rows and columns. "NAME fit"
+/// takes the colour of NAME, a doubtful part of NAME all of its look, hollow.
 std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look& look);
+
+/// The table that the names of a panel's series make, or of all panels' together (-1).
+std::optional<Factors> factors_in(const Figure& figure, int panel);
 
 struct Painter {
   DisplayList& list;
   const Look& look;
   Occupancy& occupied;
+  int panel = -1;         ///< for the tags of what is drawn; -1: an inset
+  bool over_map = false;  ///< lines must show on any colour
 };
 
 /// What each axis must show of these series.
@@ -54,7 +65,7 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks);
 
 /// The sample of a series in a legend: `width` points wide, its middle line at `at.y`.
-void draw_sample(DisplayList& list, const Look& look, const Series& series, const SeriesLook& ink, Point at,
+void draw_sample(DisplayList& list, const Look& look, Kind kind, const SeriesLook& ink, Point at,
                  double width);
 
 }  // namespace chute::plot

@@ -9,12 +9,12 @@ using namespace std::string_view_literals;
 
 constexpr std::array width_words{"single"sv, "double"sv};
 constexpr std::array style_words{"journal"sv, "slides"sv, "dark"sv};
-constexpr std::array share_words{"none"sv, "x"sv, "y"sv, "both"sv};
+constexpr std::array share_words{"automatic"sv, "none"sv, "x"sv, "y"sv, "both"sv};
 constexpr std::array legend_words{"automatic"sv, "each"sv, "common"sv, "off"sv};
 constexpr std::array kind_words{"automatic"sv, "line"sv, "markers"sv, "both"sv, "band"sv,
                                 "steps"sv,     "bars"sv, "dots"sv,    "off"sv};
 constexpr std::array place_words{"automatic"sv,    "top-left"sv, "top-right"sv, "bottom-left"sv,
-                                 "bottom-right"sv, "top"sv,      "off"sv};
+                                 "bottom-right"sv, "top"sv,      "off"sv,       "direct"sv};
 constexpr std::array scale_words{"automatic"sv, "linear"sv, "log"sv};
 constexpr std::array reference_words{"diagonal"sv, "horizontal"sv, "vertical"sv};
 constexpr std::array color_words{"automatic"sv, "blue"sv, "vermillion"sv, "green"sv, "purple"sv,
@@ -25,7 +25,7 @@ constexpr std::array dash_words{"automatic"sv, "solid"sv, "dashed"sv,      "dott
                                 "dash-dot"sv,  "long"sv,  "dash-dot-dot"sv};
 
 enum class Width { single_column, double_column };
-enum class Share { none, x, y, both };
+enum class Share { automatic, none, x, y, both };
 enum class Ordinal : int {};
 
 /// A slip in a text names its line.
@@ -129,6 +129,7 @@ static void describe(TomlReader& a, PanelRecipe& panel) {
   a.value("label", panel.label);
   a.value("tag", panel.tag);
   read_text(a, "title", panel.title);
+  read_text(a, "parameters", panel.parameters);
   a.section("x", panel.x);
   a.section("y", panel.y);
   a.choice("legend", panel.legend, place_words);
@@ -138,6 +139,12 @@ static void describe(TomlReader& a, PanelRecipe& panel) {
   a.sections("inset", panel.insets);
   a.section("map", panel.map);
   a.section("chains", panel.chains);
+}
+
+static void describe(TomlReader& a, WordRecipe& word) {
+  a.required("name", word.name);
+  a.required("label", word.label);
+  read_text(a, "label", word.label);
 }
 
 static void describe(TomlReader& a, SeriesRecipe& series) {
@@ -164,16 +171,18 @@ void describe(TomlReader& a, PlotRecipe& recipe) {
   a.check(!recipe.height || !a.has("aspect"), "aspect", "give height_mm or aspect, not both");
   a.choice("style", recipe.style, style_words);
   a.value("columns", recipe.columns, between(1, 12));
-  Share share = Share::none;
+  Share share = Share::automatic;
   a.choice("share", share, share_words);
   recipe.share_x = share == Share::x || share == Share::both;
   recipe.share_y = share == Share::y || share == Share::both;
+  recipe.own_ranges = share == Share::none;
   a.choice("legend", recipe.legend, legend_words);
   a.choice("kind", recipe.kind, std::span(kind_words).first(8));
   a.section("x", recipe.x);
   a.section("y", recipe.y);
   a.sections("panel", recipe.panels);
   a.sections("series", recipe.series);
+  a.sections("word", recipe.words);
 }
 
 }  // namespace chute::plot

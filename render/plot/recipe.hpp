@@ -13,10 +13,12 @@
 ///
 ///     [plot]
 ///     width = "single"          # 86 mm; or "double", 178 mm; or width_mm = 120 instead
-///     aspect = 0.75             # height of a frame over its width; or height_mm = 60 of the page instead
+///     aspect = 0.75             # height of a frame over its width, default 0.75 but 58 mm at most; or height_mm = 60 of the
+///                               # page instead
 ///     style = "journal"         # journal | slides | dark
 ///     columns = 2               # of panels; default one up to 100 mm of width, else two
-///     share = "none"            # none | x | y | both: one range per column, per row; numbers at the outer panels only
+///     share = "automatic"       # x | y | both: one range per column, per row; numbers at the outer panels only. none: each
+///                               # panel has its own; automatic: those whose axes have the same label have one
 ///     legend = "automatic"      # automatic | each | common | off; automatic: common if panels show the same series
 ///     kind = "automatic"        # line | markers | both | band | steps | bars | dots: of series that nothing else decides
 ///     x = { … }                 # axes of all panels, see below
@@ -34,9 +36,11 @@
 ///     label = "a"               # the rows whose panel is this
 ///     tag = "a"                 # what stands in the picture for the label, (a); "" for nothing
 ///     title = "$\\epsilon=0$"    # after the tag, above the frame
+///     parameters = "$\\mu=0$"    # after that: what was held fixed; default what the table tells (parameters.hpp)
 ///     x = { … }                 # replaces what [plot] says, key by key; so does y
 ///     y = { … }
 ///     legend = "automatic"      # automatic | top-left | top-right | bottom-left | bottom-right | top (above the frame) | off
+///                               # | direct (names at the curves)
 ///     reference = [{ kind = "diagonal", at = 0 }, { kind = "horizontal", at = 0.5, label = "$v_0$" }, { kind = "vertical", at = 1 }]
 ///     region = [{ x_min = 0, x_max = 1, y_min = 0, y_max = 1, above = "AB eps=0", below = "BC eps=0", shade = 1 }]
 ///                               # shaded (0 to 3) within the ranges and between the curves that are named
@@ -49,6 +53,10 @@
 ///     inset = [{ series = ["e_n=0.8*"], panel = "i", x = { … }, y = { … }, place = "automatic", width = 0.42, height = 0.4 }]
 ///                               # series and panel: what it shows, default all of this panel; a panel that only an inset
 ///                               # names is drawn there only; place: automatic or a corner; width, height: of the frame
+///
+///     [[plot.word]]             # parts of series' names, for legends with an entry a part (factors.hpp)
+///     name = "theory"
+///     label = "(4.47)"          # how the legend shows it
 ///
 ///     [[plot.series]]           # the first that matches decides; series that none matches are drawn all the same
 ///     match = "e_n=0.8*"        # the name in the table; * stands for anything
@@ -99,9 +107,14 @@ struct ChainsRecipe {
   std::string places, branches, weights;
 };
 
+struct WordRecipe {
+  std::string name, label;
+};
+
 struct PanelRecipe {
   std::string label, title;
   std::optional<std::string> tag;  ///< stands for the label in the picture
+  std::optional<std::string> parameters;
   AxisRecipe x, y;
   Place legend = Place::automatic;
   std::vector<Reference> references;
@@ -116,15 +129,16 @@ struct PlotRecipe {
   std::string source;  ///< file name for messages; set by whoever reads the file
   double width = 86;
   std::optional<double> height;
-  double aspect = 0.75;
+  std::optional<double> aspect;
   Style style = Style::journal;
   std::int64_t columns = 0;
-  bool share_x = false, share_y = false;
+  bool share_x = false, share_y = false, own_ranges = false;
   Legend legend = Legend::automatic;
   KindChoice kind = KindChoice::automatic;
   AxisRecipe x, y;
   std::vector<PanelRecipe> panels;
   std::vector<SeriesRecipe> series;
+  std::vector<WordRecipe> words;
 };
 
 /// Reads [plot]: `reader.section("plot", recipe)`. Texts are set once here, so that a slip in a label names

@@ -19,11 +19,14 @@ double Span::fraction(double value) const {
   return (std::log(value) - std::log(low)) / (std::log(high) - std::log(low));
 }
 
-void Extent::include(double value, Scale scale, bool marker) {
+void Extent::include(double value, Scale scale, Mark mark) {
   if (!std::isfinite(value) || (scale == Scale::log && value <= 0)) return;
   low = std::min(low, value);
   high = std::max(high, value);
-  if (!marker) return;
+  if (mark == Mark::none) return;
+  dot_low = std::min(dot_low, value);
+  dot_high = std::max(dot_high, value);
+  if (mark == Mark::dot) return;
   marker_low = std::min(marker_low, value);
   marker_high = std::max(marker_high, value);
 }
@@ -33,6 +36,8 @@ void Extent::include(const Extent& other) {
   high = std::max(high, other.high);
   marker_low = std::min(marker_low, other.marker_low);
   marker_high = std::max(marker_high, other.marker_high);
+  dot_low = std::min(dot_low, other.dot_low);
+  dot_high = std::max(dot_high, other.dot_high);
   from_zero |= other.from_zero;
   keep_off |= other.keep_off;
 }
@@ -40,6 +45,8 @@ void Extent::include(const Extent& other) {
 namespace {
 
 constexpr double room = 0.045;  // of the range, beside the outermost markers
+/// Of the range, between a marker or dot and limits that were given: half a marker in the smallest usual frame.
+constexpr double marker_room = 0.052, dot_room = 0.01;
 constexpr double least = std::numeric_limits<double>::denorm_min(), most = std::numeric_limits<double>::max();
 
 /// Room beyond the data must not leave what doubles can hold.
@@ -65,14 +72,17 @@ Span padded_linear(const Axis& axis, Extent e) {
     return span;
   }
   const double space = room * range;
+  if (axis.min) span.low = std::min({low, e.marker_low - marker_room * range, e.dot_low - dot_room * range});
+  if (axis.max)
+    span.high = std::max({high, e.marker_high + marker_room * range, e.dot_high + dot_room * range});
   const bool on_ground = e.from_zero && high == 0, on_floor = e.from_zero && low == 0;
-  if (!axis.max && !on_ground && (e.keep_off || e.marker_high > high - space))
+  if (!axis.max && !on_ground && (e.keep_off || e.dot_high > high - space))
     span.high = held(span.high + space);
   if (axis.min || on_floor) return span;
   // near zero start at zero, unless markers sit right there
-  if (low >= 0 && low < 0.2 * high && e.marker_low > space)
+  if (low >= 0 && low < 0.2 * high && e.dot_low > space)
     span.low = 0;
-  else if (e.keep_off || e.marker_low < low + space)
+  else if (e.keep_off || e.dot_low < low + space)
     span.low = held(span.low - space);
   return span;
 }
@@ -91,8 +101,12 @@ Span padded_log(const Axis& axis, Extent e) {
     return span;
   }
   const double factor = std::exp(room * ratio);
-  const bool pad_low = e.keep_off || e.marker_low < span.low * factor;
-  const bool pad_high = e.keep_off || e.marker_high > span.high / factor;
+  const double by_marker = std::exp(marker_room * ratio), by_dot = std::exp(dot_room * ratio);
+  if (axis.min)
+    span.low = std::max(std::min({span.low, e.marker_low / by_marker, e.dot_low / by_dot}), least);
+  if (axis.max) span.high = held(std::max({span.high, e.marker_high * by_marker, e.dot_high * by_dot}));
+  const bool pad_low = e.keep_off || e.dot_low < span.low * factor;
+  const bool pad_high = e.keep_off || e.dot_high > span.high / factor;
   if (!axis.min && pad_low) span.low = std::max(span.low / factor, least);
   if (!axis.max && pad_high) span.high = held(span.high * factor);
   return span;
@@ -353,7 +367,10 @@ Span span_of(const Axis& axis, const Extent& extent) {
   if (axis.max && data.low >= *axis.max)
     data.low = axis.scale == Scale::log ? std::max(*axis.max / 10, least)
                                         : held(*axis.max - std::max(1.0, 0.1 * std::abs(*axis.max)));
-  return axis.scale == Scale::linear ? padded_linear(axis, data) : padded_log(axis, data);
+  Span span = axis.scale == Scale::linear ? padded_linear(axis, data) : padded_log(axis, data);
+  if (axis.min) span.low_limit = *axis.min;
+  if (axis.max) span.high_limit = *axis.max;
+  return span;
 }
 
 Ticks ticks_for(const Span& span, double length, double size, bool horizontal) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace chute::plot {
 struct Span {
   double low = 0, high = 1;
   Scale scale = Scale::linear;
+  /// Limits that were given: what lies beyond them is outside, although the range may reach a little farther for markers.
+  double low_limit = -std::numeric_limits<double>::infinity(),
+         high_limit = std::numeric_limits<double>::infinity();
 
   /// 0 at low, 1 at high; NaN for what a log axis cannot show.
   double fraction(double value) const;
@@ -20,15 +24,18 @@ struct Span {
 /// What the data of an axis ask for.
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  double marker_low = low, marker_high = -low;  ///< of the markers alone: at the frame they need room
-  bool from_zero = false;                       ///< a histogram: bars stand on zero
-  bool keep_off = false;                        ///< y: lines must not run along the frame either
+  /// Of the markers alone, and of markers and dots: at the frame they need room.
+  double marker_low = low, marker_high = -low, dot_low = low, dot_high = -low;
+  bool from_zero = false;  ///< a histogram: bars stand on zero
+  bool keep_off = false;   ///< y: lines must not run along the frame either
 
-  void include(double value, Scale scale, bool marker = false);
+  enum class Mark : std::uint8_t { none, dot, marker };
+  void include(double value, Scale scale, Mark mark = Mark::none);
   void include(const Extent& other);
 };
 
-/// The given limits; the data's with a little room where none are given. InputError `axis: …` if the limits
+/// The given limits, moved out a little where a marker or dot within them would be cut; the data's with a little room where
+/// none are given. InputError `axis: …` if the limits
 /// are the wrong way round or a log axis is asked to show numbers <= 0.
 Span span_of(const Axis& axis, const Extent& extent);
 

@@ -64,9 +64,14 @@ std::string symbol(const std::string& word) {
   return out;
 }
 
-/// "k_s/k_n" as well.
+/// "k_s/k_n" as well, and "sin(theta)".
 std::string quotient(const std::string& word) {
   std::string out;
+  if (const auto open = word.find('('); open != std::string::npos && word.ends_with(')')) {
+    const auto argument = symbol(word.substr(open + 1, word.size() - open - 2));
+    const auto function = word.substr(0, open);
+    return argument.empty() || !is_function_name(function) ? "" : "\\" + function + argument;
+  }
   for (const auto& part : split(word, '/')) {
     const auto one = symbol(part);
     if (one.empty()) return "";

@@ -99,6 +99,11 @@ void draw_reference(Painter& painter, const Frame& frame, const Reference& refer
   add_polyline(path, points, frame.rect);
   if (path.empty()) return;
   const double width = 1.4 * painter.look.hairline;
+  if (painter.over_map) {  // whatever colour is beneath
+    painter.list.stroke(path, {3 * width, {}, Cap::butt, Join::round}, painter.look.paper.with_alpha(0.75));
+    painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.ink);
+    return;
+  }
   painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.quiet);
 }
 
@@ -138,6 +143,7 @@ void label_line(Painter& painter, const Frame& frame, const Reference& reference
         for (double s : {0.0, text.width})
           for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
         if (over_ink ? !painter.occupied.clear_of_texts(box) : !painter.occupied.free(box)) continue;
+        if (painter.over_map) painter.list.fill(Path{}.rectangle(box), painter.look.paper.with_alpha(0.75));
         draw_text(painter.list, text, at, painter.look.ink, std::atan2(-along.y(), along.x()));
         return painter.occupied.mark_text(box);
       }
@@ -157,7 +163,7 @@ void draw_note(Painter& painter, const Frame& frame, const Note& note) {
   const Point middle = note.fraction ? Point{frame.rect.left + note.x * frame.rect.width(),
                                              frame.rect.bottom - note.y * frame.rect.height()}
                                      : frame.at(note.x, note.y);
-  if (!frame.rect.contains(middle))
+  if (!frame.rect.contains(middle, 0.01))
     throw InputError(fmt::format("note \"{}\" lies outside its panel", note.text));
   const Rect room = frame.rect.grown(-2);
   const double height = text.ascent + text.descent;

@@ -10,9 +10,9 @@ namespace {
 Look journal() {
   Look look;
   look.ink = Color::hex(0x000000), look.paper = Color::hex(0xffffff), look.quiet = Color::hex(0x707070);
-  // blue, vermillion, bluish green, reddish purple, orange, sky blue, yellow (darkened), black
-  look.colors = {Color::hex(0x0072B2), Color::hex(0xD55E00), Color::hex(0x009E73), Color::hex(0xCC79A7),
-                 Color::hex(0xE69F00), Color::hex(0x56B4E9), Color::hex(0x9C8A00), Color::hex(0x000000)};
+  // blue, vermillion, green, purple, orange, sky, yellow, black
+  look.colors = {Color::hex(0x0A457C), Color::hex(0xB32300), Color::hex(0x0B865E), Color::hex(0x4F104A),
+                 Color::hex(0xD8972A), Color::hex(0x55CBFB), Color::hex(0x9A8D42), Color::hex(0x000000)};
   look.shades = {Color::hex(0xDCEBF6), Color::hex(0xFBE6D2), Color::hex(0xDDF1E7), Color::hex(0xF3E3EC)};
   return look;
 }
@@ -28,8 +28,8 @@ Look slides() {
 Look dark() {
   Look look = journal();
   look.ink = Color::hex(0xE8E8E8), look.paper = Color::hex(0x16181D), look.quiet = Color::hex(0x9A9A9A);
-  look.colors = {Color::hex(0x56B4E9), Color::hex(0xF0883E), Color::hex(0x2CC79B), Color::hex(0xE39BC5),
-                 Color::hex(0xE69F00), Color::hex(0x7FA6FF), Color::hex(0xF0E442), Color::hex(0xFFFFFF)};
+  look.colors = {Color::hex(0x096EC4), Color::hex(0xEC9275), Color::hex(0x51EAC5), Color::hex(0xA96FA2),
+                 Color::hex(0xF3B232), Color::hex(0x349EDA), Color::hex(0xFFEC2F), Color::hex(0xFFFFFF)};
   look.shades = {Color::hex(0x1E3347), Color::hex(0x45301F), Color::hex(0x1D3D33), Color::hex(0x40293A)};
   return look;
 }
@@ -51,6 +51,42 @@ const Look& look_of(Style style) {
   return looks[static_cast<std::size_t>(style)];
 }
 
+namespace {
+
+/// The part of a convex outline left of the middle.
+Path left_half(const Path& outline, double size) {
+  std::vector<Point> ring;
+  if (outline.verbs.size() > 1 && outline.verbs[1] == Path::Verb::cubic) {
+    constexpr int steps = 32;
+    for (int k = 0; k <= steps; ++k) {
+      const double angle = std::numbers::pi * (0.5 + static_cast<double>(k) / steps);
+      ring.push_back({size / 2 * std::cos(angle), -size / 2 * std::sin(angle)});
+    }
+  } else {
+    const auto& p = outline.points;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const Point a = p[k], b = p[(k + 1) % p.size()];
+      if (a.x() <= 1e-9) ring.push_back(a);
+      if ((a.x() < -1e-9 && b.x() > 1e-9) || (a.x() > 1e-9 && b.x() < -1e-9))
+        ring.push_back(a + a.x() / (a.x() - b.x()) * (b - a));
+    }
+  }
+  Path half;
+  for (const Point& p : ring) half.empty() ? half.move(p) : half.line(p);
+  return half.close();
+}
+
+}  // namespace
+
+MarkerShape marker_shape(int index, double size, Fill fill) {
+  auto shape = marker_shape(index, size);
+  if (fill == Fill::own || shape.paint == MarkerShape::Paint::strokes) return shape;
+  shape.paint = fill == Fill::filled ? MarkerShape::Paint::filled : MarkerShape::Paint::hollow;
+  if (fill == Fill::half) shape.inside = left_half(shape.path, size);
+  if (fill == Fill::dotted) shape.inside.circle(shape.path.bounds().centre(), 0.19 * size);
+  return shape;
+}
+
 MarkerShape marker_shape(int index, double size) {
   using Paint = MarkerShape::Paint;
   constexpr double quarter = std::numbers::pi / 4, half = std::numbers::pi / 2;
@@ -58,26 +94,26 @@ MarkerShape marker_shape(int index, double size) {
   Path path;
   switch (((index % marker_count) + marker_count) % marker_count) {
     case 0:
-      return {path.circle({0, 0}, r), Paint::filled};
+      return {path.circle({0, 0}, r), Paint::filled, {}};
     case 1:
-      return {polygon(4, 1.25 * r, quarter), Paint::hollow};  // squares of the circle's area
+      return {polygon(4, 1.25 * r, quarter), Paint::hollow, {}};  // squares of the circle's area
     case 2:
-      return {polygon(3, 1.5 * r, half), Paint::filled};
+      return {polygon(3, 1.5 * r, half), Paint::filled, {}};
     case 3:
-      return {polygon(4, 1.35 * r, half), Paint::hollow};
+      return {polygon(4, 1.35 * r, half), Paint::hollow, {}};
     case 4:
-      return {polygon(3, 1.5 * r, -half), Paint::filled};
+      return {polygon(3, 1.5 * r, -half), Paint::filled, {}};
     case 5:
-      return {path.circle({0, 0}, r), Paint::hollow};
+      return {path.circle({0, 0}, r), Paint::hollow, {}};
     case 6:
-      return {polygon(4, 1.25 * r, quarter), Paint::filled};
+      return {polygon(4, 1.25 * r, quarter), Paint::filled, {}};
     case 7:
-      return {polygon(3, 1.5 * r, half), Paint::hollow};
+      return {polygon(3, 1.5 * r, half), Paint::hollow, {}};
     case 8:
-      return {polygon(4, 1.35 * r, half), Paint::filled};
+      return {polygon(4, 1.35 * r, half), Paint::filled, {}};
     default: {
       const double d = 0.95 * r;
-      return {path.move({-d, -d}).line({d, d}).move({-d, d}).line({d, -d}), Paint::strokes};
+      return {path.move({-d, -d}).line({d, d}).move({-d, d}).line({d, -d}), Paint::strokes, {}};
     }
   }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,18 +29,23 @@ inline constexpr double inset_from_frame = 6;
 /// Between frame, tick labels and axis labels.
 inline double gap_of(const Look& look) { return 0.33 * look.tick_size; }
 
-/// Wong's (Nature Methods 8, 441) eight, as Okabe and Ito chose them, the yellow darkened so that it shows on
-/// white; told apart with any colour blindness. In every style a series also differs from its neighbours by
-/// marker and dash.
+/// The hues of Wong (Nature Methods 8, 441), as Okabe and Ito chose them, at lightnesses that also differ in grey and to
+/// deuteranopes and protanopes: found by a search over lightness, chroma and hue, and held to least differences by a test
+/// (tests/plot/test_referee.cpp). In every style a series also differs from its neighbours by marker and dash.
 inline constexpr int color_count = 8;
 
 inline constexpr int marker_count = 10;
 struct MarkerShape {
   Path path;
   enum class Paint { filled, hollow, strokes } paint = Paint::filled;
+  Path inside;  ///< filled within a hollow one; empty: nothing
 };
 /// Shape `index` (any number, counted round) about the origin for a circle of the given diameter.
 MarkerShape marker_shape(int index, double size);
+
+/// How a shape is filled: what tells the second of two factors of a series' name.
+enum class Fill : std::uint8_t { own, filled, hollow, half, dotted };
+MarkerShape marker_shape(int index, double size, Fill fill);
 
 /// Dash pattern `index` in multiples of the line's width; 0 is solid.
 std::vector<double> dash_pattern(int index, double line_width);

@@ -18,6 +18,7 @@
 #include "plot/draw.hpp"
 #include "plot/layout.hpp"
 #include "plot/recipe.hpp"
+#include "plot/referee.hpp"
 #include "read/table.hpp"
 #include "run/version.hpp"
 #include "theory/theory_figures.hpp"
@@ -121,7 +122,10 @@ std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {
   std::vector<std::string> comments{recipe.title};
   comments.insert(comments.end(), table.comments.begin(), table.comments.end());
   io::Csv csv(comments, {"panel", "series", "x", "y", "x_err", "y_err"});
-  for (const auto& row : table.rows) csv.row({row.panel, row.series}, {row.x, row.y, row.x_err, row.y_err});
+  // An error of exactly 0, such as of a mean over runs that all have the same, is one that nobody knows.
+  const auto known = [](std::optional<double> error) { return error && *error > 0 ? error : std::nullopt; };
+  for (const auto& row : table.rows)
+    csv.row({row.panel, row.series}, {row.x, row.y, known(row.x_err), known(row.y_err)});
   return csv.text();
 }
 
@@ -155,10 +159,12 @@ fs::path find_recipe(const std::string& name) {
                                hint.empty() ? "" : ", did you mean " + hint + "?"));
 }
 
-void make_figure(const fs::path& file, const fs::path& directory, const figures::FigureContext& context,
-                 const std::function<bool(double)>& progress) {
+std::vector<std::string> make_figure(const fs::path& file, const fs::path& directory,
+                                     const figures::FigureContext& context,
+                                     const std::function<bool(double)>& progress) {
   const Recipe recipe = read_recipe(file);
-  const auto table = make_table(recipe, file, directory, context, progress);
+  auto table = make_table(recipe, file, directory, context, progress);
+  for (const auto& ratio : recipe.data.ratios) figures::draw_ratio(ratio, table);
   const auto beside = [&](const char* extension) { return directory / (file.stem().string() + extension); };
   // A table of the user's own may stand where the figure's would go: it stays as it is.
   std::error_code error;
@@ -168,7 +174,8 @@ void make_figure(const fs::path& file, const fs::path& directory, const figures:
   // written, since what stands there may be better than nothing.
   const auto text = csv_text(recipe, table);
   const auto figure = plot::figure_from(recipe.plot, read::parse_table(text, beside(".csv")));
-  const auto list = plot::lay_out(figure).list;
+  const auto layout = plot::lay_out(figure);
+  const auto& list = layout.list;
   fs::create_directories(directory);
   remove_leftovers(directory);
   if (!is_source) write_atomically(beside(".csv"), text);
@@ -179,6 +186,13 @@ void make_figure(const fs::path& file, const fs::path& directory, const figures:
   plot::draw_png(list, beside(".png"), plot::default_dpi, metadata);
   plot::draw_pdf(list, beside(".pdf"), metadata);
   plot::draw_svg(list, beside(".svg"), metadata);
+  std::vector<std::string> findings;
+  for (const auto& finding : plot::review(figure, layout))
+    findings.push_back(fmt::format(
+        "{}{}: {}",
+        finding.panel >= 0 && figure.panels.size() > 1 ? fmt::format("panel {}: ", finding.panel + 1) : "",
+        plot::name(finding.kind), finding.what));
+  return findings;
 }
 
 }  // namespace chute::app

@@ -19,8 +19,10 @@ std::vector<KnownFigure> known_figures();
 /// The recipe of an id, or the file of that name; of `-` the name that stands for standard input. InputError, with the nearest id, if there is none.
 std::filesystem::path find_recipe(const std::string& name);
 
-/// Makes DIR/ID.csv, .png, .pdf and .svg from a recipe.
-void make_figure(const std::filesystem::path& recipe, const std::filesystem::path& directory,
-                 const figures::FigureContext& context, const std::function<bool(double)>& progress);
+/// Makes DIR/ID.csv, .png, .pdf and .svg from a recipe. Tells what a referee finds wrong with the picture (plot/referee.hpp), a line each.
+std::vector<std::string> make_figure(const std::filesystem::path& recipe,
+                                     const std::filesystem::path& directory,
+                                     const figures::FigureContext& context,
+                                     const std::function<bool(double)>& progress);
 
 }  // namespace chute::app

@@ -16,7 +16,7 @@ namespace {
 struct FigureArguments {
   std::vector<std::string> figures;
   std::string directory = "out/figures";
-  bool quick = false, list = false, quiet = false;
+  bool quick = false, list = false, quiet = false, referee = false;
   int jobs = 1;
 };
 
@@ -36,18 +36,23 @@ void run(const FigureArguments& arguments) {
     for (const auto& figure : known_figures()) recipes.push_back(figure.recipe);
   }
   watch_for_interrupt();
+  std::size_t found = 0;
   for (const auto& recipe : recipes) {
     const auto id = recipe.stem().string();
     Progress progress(id, arguments.quiet);
     figures::FigureContext context;
     context.quick = arguments.quick;
     context.jobs = arguments.jobs;
-    make_figure(recipe, arguments.directory, context, [&](double part) {
+    const auto findings = make_figure(recipe, arguments.directory, context, [&](double part) {
       progress.show(part);
       return !interrupted();
     });
     if (!arguments.quiet) tell("{}: {}/{}.png, .pdf, .svg, .csv\n", id, arguments.directory, id);
+    if (!arguments.referee) continue;
+    for (const auto& finding : findings) fmt::print("{}: {}\n", id, finding);
+    found += findings.size();
   }
+  if (found > 0) throw WorkError(fmt::format("a referee finds {} fault{}", found, found > 1 ? "s" : ""));
 }
 
 }  // namespace
@@ -63,6 +68,10 @@ void add_figure(CLI::App& app) {
   verb->add_flag("--list", a->list, "list the figures that are known");
   verb->add_option("--jobs", a->jobs, "simulations side by side; results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  verb->add_flag(
+      "--referee", a->referee,
+      "read the finished pictures as a referee would: points lost or on the frame, texts that overlap, series "
+      "that only colour tells apart, panels without parameters; status 1 if there are such");
   verb->add_flag("--quiet", a->quiet, "no progress line");
   verb->footer("Example: chute figure fig-4-10 fig-5-01 --quick -o out/figures");
   verb->callback([a] { run(*a); });

@@ -12,6 +12,8 @@ struct ComputedCurve {
   std::string panel, series;
   std::vector<double> x;
   std::function<double(double)> y;
+  bool by_curvature = false;  ///< further points wherever it bends
+  bool log = false;           ///< along a logarithmic axis
 };
 
 /// All points of all curves, up to `jobs` at a time, in the order of the curves. `progress` is told the part

@@ -22,6 +22,7 @@ static void describe(TomlReader& a, ExperimentCurve& curve) {
   a.value("set", curve.set);
   a.value("quick", curve.quick);
   a.value("quantity", curve.quantity);
+  a.value("by_curvature", curve.smooth);
   a.value("values", curve.values);
   a.value("power_law", curve.power_law);
   if (curve.power_law) a.required("power_law_at", curve.power_law_at, positive);
@@ -39,6 +40,7 @@ void describe(TomlReader& a, ExperimentRecipe& recipe) {
   a.choice("spacing", recipe.spacing, spacing_words);
   a.value("count", recipe.count, between(2, 100000));
   a.value("quick_count", recipe.quick_count, between(2, 100000));
+  a.value("by_curvature", recipe.by_curvature);
   a.value("more", recipe.more);
   a.required("quantity", recipe.quantity);
   a.required("x", recipe.x);
@@ -92,7 +94,9 @@ figures::FigureTable make_table(std::span<const ExperimentRecipe> recipes,
     const auto values = values_of(recipe, context.quick);
     for (const auto& curve : recipe.curves)
       curves.push_back({curve.panel, curve.series, curve.values.value_or(values),
-                        measurement(recipe, curve, recipe_file.parent_path() / recipe.scene, context.quick)});
+                        measurement(recipe, curve, recipe_file.parent_path() / recipe.scene, context.quick),
+                        recipe.by_curvature || curve.smooth,
+                        recipe.spacing == ExperimentRecipe::Spacing::logarithmic});
     table.comments.push_back(fmt::format("x: {}", recipe.x));
     table.comments.push_back(fmt::format("y: {}", recipe.y));
     table.comments.insert(table.comments.end(), recipe.notes.begin(), recipe.notes.end());

@@ -13,9 +13,10 @@ namespace chute::experiments {
 /// One curve: how its experiment differs.
 struct ExperimentCurve {
   std::string panel, series;
-  std::vector<std::string> set;               ///< key=value, on top of the recipe's
-  std::vector<std::string> quick;             ///< and with --quick
-  std::optional<std::string> quantity;        ///< instead of the recipe's
+  std::vector<std::string> set;         ///< key=value, on top of the recipe's
+  std::vector<std::string> quick;       ///< and with --quick
+  std::optional<std::string> quantity;  ///< instead of the recipe's
+  bool smooth = false;  ///< `by_curvature` for this curve alone, such as a closed form beside points
   std::optional<std::vector<double>> values;  ///< of the varied key, instead of the recipe's
   /// Instead of experiments: 1 − y = a x^p with the exponent p, through the experiment at x = `power_law_at`.
   std::optional<double> power_law, power_law_at;
@@ -30,6 +31,7 @@ struct ExperimentRecipe {
   double from = 0, to = 0;         ///< its values
   enum class Spacing { even, logarithmic } spacing = Spacing::even;
   std::int64_t count = 50, quick_count = 10;
+  bool by_curvature = false;       ///< and further values wherever the curves bend, whatever --quick says
   std::vector<double> more;        ///< further values
   std::string quantity;            ///< on the y axis: a result, as chute run prints them
   std::string x, y;                ///< what they are, with units: comments of the CSV

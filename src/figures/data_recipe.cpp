@@ -117,6 +117,7 @@ void describe(TomlReader& a, DataRecipe& recipe) {
           "give one of scene (simulate; perhaps with compute, a built-in computation, beside it), "
           "experiment, table "
           "(a CSV file), or curves with runs");
+  a.sections("ratio", recipe.ratios);
   if (!recipe.scene && (recipe.compute || recipe.table || !recipe.experiments.empty())) return;
   a.value("set", recipe.set);
   a.value("quick", recipe.quick);

@@ -10,6 +10,7 @@
 #include "common/toml_reader.hpp"
 #include "experiments/recipe.hpp"
 #include "figures/fits.hpp"
+#include "figures/ratios.hpp"
 #include "figures/sweep_curves.hpp"
 
 namespace chute::figures {
@@ -104,6 +105,7 @@ struct DataRecipe {
   std::vector<Curve> curves;
   std::vector<SweepCurve> sweeps;  ///< [[data.sweep]]: curves made from many runs
   std::vector<Fit> fits;           ///< [[data.fit]]: laws put through series that are there
+  std::vector<Ratio> ratios;       ///< [[data.ratio]]: series divided by others
 };
 
 void describe(TomlReader& a, DataRecipe& recipe);

@@ -202,6 +202,20 @@ std::vector<bool> telling(const read::Table& table, const std::string& column) {
   return rows;
 }
 
+/// Fewer runs than these tell nothing of how runs scatter: their own errors count then.
+constexpr std::size_t fewest_runs = 3;
+
+/// Mean over runs with its error: from their scatter, or, of too few, from what they state themselves, if all do.
+Estimate over_runs(const std::vector<double>& values, const std::vector<double>& own) {
+  Estimate e = estimate_of(values);
+  if (values.size() >= fewest_runs) return e;
+  double square = 0;
+  for (const double error : own) square += error * error;
+  const double combined = std::sqrt(square) / static_cast<double>(std::max<std::size_t>(1, own.size()));
+  e.error = std::isfinite(combined) && combined > 0 ? std::optional(combined) : std::nullopt;
+  return e;
+}
+
 /// A column of a table against another, or against the first, averaged over runs at equal x.
 std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> runs, const std::string& file,
                                 const std::string& other = "") {
@@ -220,8 +234,7 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
   }
   std::vector<FigureRow> rows;
   for (const auto& [x, values] : at) {
-    auto [mean, error] = estimate_of(values.y);
-    if (!error && std::isfinite(values.err[0])) error = values.err[0];
+    const auto [mean, error] = over_runs(values.y, values.err);
     rows.push_back({curve.panel, curve.series, x, mean, {}, error});
   }
   return rows;
@@ -235,14 +248,13 @@ std::vector<FigureRow> last(const Curve& curve, std::span<const fs::path> runs) 
         std::isfinite(end))
       ends.push_back(end);
   if (ends.empty()) return {};
-  const auto [mean, error] = estimate_of(ends);
+  const auto [mean, error] = over_runs(ends, std::vector<double>(ends.size(), NAN));
   return {{curve.panel, curve.series, curve.at, mean, {}, error}};
 }
 
 /// The one number that a table of each run has in this column, over the runs. Runs that have none do not count.
 std::vector<FigureRow> value(const Curve& curve, std::span<const fs::path> runs) {
-  std::vector<double> values;
-  std::optional<double> own;
+  std::vector<double> values, own;
   for (const auto& run : runs) {
     const auto table = read::read_table(run / *curve.file);
     const auto column = table.column(curve.column);
@@ -252,18 +264,17 @@ std::vector<FigureRow> value(const Curve& curve, std::span<const fs::path> runs)
     if (!std::isfinite(column[0])) continue;
     values.push_back(curve.scale * column[0]);
     const auto error = curve.column + "_err";
-    if (table.has(error) && std::isfinite(table.column(error)[0])) own = curve.scale * table.column(error)[0];
+    own.push_back(table.has(error) ? curve.scale * table.column(error)[0] : NAN);
   }
   if (values.empty()) return {};
-  const auto [mean, error] = estimate_of(values);
-  return {{curve.panel, curve.series, curve.x(), mean, {}, error ? error : own}};
+  const auto [mean, error] = over_runs(values, own);
+  return {{curve.panel, curve.series, curve.x(), mean, {}, error}};
 }
 
 /// The mean of a column over the rows of each run's table that pass. Its error is that over the runs, or of one run that
 /// over its rows, which count as independent then.
 std::vector<FigureRow> mean_of_rows(const Curve& curve, std::span<const fs::path> runs) {
-  std::vector<double> means;
-  std::optional<double> own;
+  std::vector<double> means, own;
   for (const auto& run : runs) {
     const Rows rows(curve, run);
     const auto& column = rows.column(curve.column);
@@ -272,11 +283,11 @@ std::vector<FigureRow> mean_of_rows(const Curve& curve, std::span<const fs::path
       if (rows.passes(i) && std::isfinite(column[i])) values.push_back(curve.scale * column[i]);
     if (values.empty()) continue;
     const auto [mean, error] = estimate_of(values);
-    means.push_back(mean), own = error;
+    means.push_back(mean), own.push_back(error.value_or(NAN));
   }
   if (means.empty()) return {};
-  const auto [mean, error] = estimate_of(means);
-  return {{curve.panel, curve.series, curve.x(), mean, {}, error ? error : own}};
+  const auto [mean, error] = over_runs(means, own);
+  return {{curve.panel, curve.series, curve.x(), mean, {}, error}};
 }
 
 std::vector<FigureRow> line(const Curve& curve) {

@@ -10,6 +10,7 @@
 #include "common/side_by_side.hpp"
 #include "figures/extract.hpp"
 #include "figures/extract_hard.hpp"
+#include "figures/held_fixed.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
 #include "run/version.hpp"
@@ -104,6 +105,27 @@ static std::string verdicts_of(const std::vector<fs::path>& runs) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+/// A mean over the runs that settled; what the others have stands apart as "NAME unsettled". Where none settled the curve is
+/// theirs, and the table says that it is to be drawn hollow.
+static std::vector<FigureRow> settled_and_not(const Curve& curve, const std::vector<fs::path>& runs,
+                                              FigureTable& table) {
+  std::vector<fs::path> settled, others;
+  for (const auto& run : runs)
+    (run::read_flow(run).verdict == measure::Verdict::steady ? settled : others).push_back(run);
+  if (settled.empty()) {
+    table.comments.push_back(
+        fmt::format("hollow{}: {}", curve.panel.empty() ? "" : " " + curve.panel, curve.series));
+    return extract(curve, others);
+  }
+  auto rows = extract(curve, settled);
+  if (others.empty()) return rows;
+  Curve part = curve;
+  part.series += " unsettled";
+  const auto apart = extract(part, others);
+  rows.insert(rows.end(), apart.begin(), apart.end());
+  return rows;
+}
+
 FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work,
                      const FigureContext& context, const std::string& command_line,
                      const std::function<bool(double)>& progress) {
@@ -114,6 +136,7 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
   const auto seeds = context.quick ? recipe.quick_seeds : recipe.seeds;
   table.comments = {fmt::format("x: {}", recipe.x), fmt::format("y: {}", recipe.y)};
   for (const auto& note : recipe.notes) table.comments.push_back(note);
+  for (auto& comment : held_fixed(recipe, recipe_file)) table.comments.push_back(std::move(comment));
   table.comments.push_back(fmt::format(
       "made by chute {} ({}) from scene {}{}{}; {} run{} per series, seed{} 1{}", run::version, run::commit,
       *recipe.scene, recipe.set.empty() ? "" : " with ", fmt::join(recipe.set, " "), seeds,
@@ -127,7 +150,9 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     if (recipe.curves[c].extract == Extract::profile && (c == 0 || plan.of_curve[c] != plan.of_curve[c - 1]))
       table.comments.push_back(recipe.curves[c].series + ": " + verdicts_of(runs));
     if (context.quick && recipe.curves[c].full_only) continue;
-    const auto rows = extract(recipe.curves[c], runs);
+    const auto rows = recipe.curves[c].extract == Extract::profile
+                          ? settled_and_not(recipe.curves[c], runs, table)
+                          : extract(recipe.curves[c], runs);
     if (const auto part = left_out(recipe.curves[c], runs);
         part && recipe.curves[c].extract == Extract::scatter)
       table.comments.push_back(fmt::format("{} {}: {:.1f} % of the rows are left out", recipe.curves[c].panel,

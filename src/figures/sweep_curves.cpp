@@ -27,6 +27,8 @@ struct Point {
   double x;
   std::optional<Estimate> y;  ///< empty: no such value there
   bool in_B = false;
+  std::optional<Estimate> apart{};  ///< instead: the median of starts that do not share one mean velocity
+  std::string dropped{};            ///< why there is none
 };
 
 /// A boundary along the inclination as an angle θ.
@@ -54,7 +56,7 @@ class Sweeps {
     }
     const auto launches = sweep::launches_of(base, curve.velocities, setting_.seeds, store_, progress);
     const auto& slow = launches.front();
-    if (2 * slow.together <= slow.starts) return;
+    if (2 * slow.together <= slow.starts) return drop(point, slow);
     point.in_B = sweep::phase_of(launches, curve.alike) == sweep::Phase::B;
     if (curve.column == Column::v_x) {
       point.y = slow.median;
@@ -71,6 +73,19 @@ class Sweeps {
  private:
   const SweepSetting& setting_;
   sweep::PointStore store_;
+
+  /// A place where most starts do not share one mean velocity has none; what they do instead is told, and where they go on
+  /// at different velocities, at a transition, their median is shown apart.
+  static void drop(Point& point, const sweep::Tally& slow) {
+    using measure::Verdict;
+    const auto stopped = slow.count(Verdict::stopped),
+               left = slow.count(Verdict::accelerating) + slow.count(Verdict::runaway);
+    point.dropped = fmt::format("{} of {} starts stopped, {} accelerate, {} share one velocity", stopped,
+                                slow.starts, left, slow.together);
+    const bool goes_on = 2 * stopped < slow.starts && 2 * left < slow.starts;
+    if (point.curve->column == Column::v_x && goes_on && std::isfinite(slow.median.mean))
+      point.apart = slow.median;
+  }
 
   /// The error of the median from one seed, such as one bed, to the next; empty if there is only one.
   std::optional<double> over_seeds(const sweep::Base& base, const SweepCurve& curve,
@@ -149,8 +164,19 @@ FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetti
           curve.panel, curve.series, v_0, curve.offset_of.value_or(curve.series), fit.f, fit.s_AB));
     }
     for (const auto& p : points) {
-      if (p.curve != &curve || !p.y) continue;
-      auto y = *p.y;
+      if (p.curve != &curve) continue;
+      if (!p.y && !is_boundary(curve))
+        table.comments.push_back(fmt::format(
+            "{}{} at {}: {}{}", curve.panel.empty() ? "" : curve.panel + " ", curve.series, p.x,
+            p.dropped.empty() ? "no steady start" : p.dropped,
+            p.apart ? fmt::format("; their median stands as {} apart", curve.series) : "; no row"));
+      if (!p.y && is_boundary(curve))
+        table.comments.push_back(fmt::format("{}{} at {}: no boundary within the range, no row",
+                                             curve.panel.empty() ? "" : curve.panel + " ", curve.series,
+                                             p.x));
+      if (!p.y && !p.apart) continue;
+      auto y = p.y ? *p.y : *p.apart;
+      const std::string series = curve.series + (p.y ? "" : " apart");
       if (curve.above_offset) {
         const double above = y.mean - v_0;
         y = {above * above, y.error ? std::optional(2 * std::abs(above) * *y.error) : std::nullopt};
@@ -159,9 +185,9 @@ FigureTable sweep_curves(const std::vector<SweepCurve>& curves, const SweepSetti
       if (y.error) *y.error *= curve.scale;
       if (curve.along_sine) {
         const auto error = y.error ? std::optional(*y.error * std::cos(y.mean)) : std::nullopt;
-        table.rows.push_back({curve.panel, curve.series, std::sin(y.mean), p.x, error, {}});
+        table.rows.push_back({curve.panel, series, std::sin(y.mean), p.x, error, {}});
       } else {
-        table.rows.push_back({curve.panel, curve.series, p.x, y.mean, {}, y.error});
+        table.rows.push_back({curve.panel, series, p.x, y.mean, {}, y.error});
       }
     }
   }

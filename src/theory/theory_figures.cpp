@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/curvature.hpp"
 #include "core/estimate.hpp"
 #include "theory/hard_gas.hpp"
 #include "theory/rolling.hpp"
@@ -24,71 +25,73 @@ const char* const versions_comment =
 
 const char* name(Version version) { return version == Version::printed ? "theory" : "theory corrected"; }
 
-/// v̄_x from θ_AB, where it rises like 1/log (points close together there), to where the ball would lift off.
-void add_velocity(FigureTable& table, const std::string& series, const Line& line, Version version,
-                  int points) {
+/// v̄_x from θ_AB, where it rises like 1/log (so the parameter of the curve is the cube root of the way), to where the ball
+/// would lift off.
+void add_velocity(FigureTable& table, const std::string& series, const Line& line, Version version) {
   const double lowest = std::sin(boundary_ab(line, version)),
                steepest = std::sin(lift_off_angle(line, version));
-  for (int k = 0; k <= points; ++k) {
-    const double part = static_cast<double>(k) / points;
-    const double sine = lowest + (steepest - lowest) * (1e-6 + (1 - 1e-6) * part * part * part);
-    if (const auto passage = steady_passage(line, std::asin(sine), version))
-      table.rows.push_back({"", series, sine, passage->mean_velocity});
-  }
+  const auto sine = [&](double part) {
+    return lowest + (steepest - lowest) * (1e-6 + (1 - 1e-6) * part * part * part);
+  };
+  const auto velocity = [&](double part) {
+    const auto passage = steady_passage(line, std::asin(sine(part)), version);
+    return passage ? passage->mean_velocity : NAN;
+  };
+  for (const auto& [part, v] : by_curvature(velocity, 0, 1))
+    if (std::isfinite(v)) table.rows.push_back({"", series, sine(part), v});
 }
 
 }  // namespace
 
-FigureTable compute_theory_4_17(const FigureContext& context) {
+FigureTable compute_theory_4_17(const FigureContext&) {
   FigureTable table;
   table.comments = {"x: sin theta", "y: mean velocity v_x, m/s", line_comment, versions_comment};
   for (const Version version : {Version::printed, Version::corrected})
     for (const double phi : {1.75, 2.25, 3.0})
-      add_velocity(table, fmt::format("{} Phi={}", name(version), phi), Line{phi}, version,
-                   context.quick ? 40 : 200);
+      add_velocity(table, fmt::format("{} Phi={}", name(version), phi), Line{phi}, version);
   return table;
 }
 
-FigureTable compute_theory_4_18(const FigureContext& context) {
+FigureTable compute_theory_4_18(const FigureContext&) {
   FigureTable table;
   table.comments = {"x: sin theta", "y: mean velocity v_x, m/s", line_comment, versions_comment,
                     "Phi = 3; mean gap 0.1 for the disordered line with eps_max = 0.2 (4.52)"};
   for (const Version version : {Version::printed, Version::corrected})
-    add_velocity(table, name(version), Line{3, 0.1}, version, context.quick ? 40 : 200);
+    add_velocity(table, name(version), Line{3, 0.1}, version);
   return table;
 }
 
-FigureTable compute_fig_4_19(const FigureContext& context) {
+FigureTable compute_fig_4_19(const FigureContext&) {
   FigureTable table;
   table.comments = {"x: sin theta", "y: mean velocity v_x, m/s", line_comment,
                     "exact: (4.47) as printed; linear: (4.55), its expansion"};
-  const int points = context.quick ? 40 : 200;
   for (const double phi : {3.0, 2.25, 1.75})
-    add_velocity(table, fmt::format("exact Phi={}", phi), Line{phi}, Version::printed, points);
+    add_velocity(table, fmt::format("exact Phi={}", phi), Line{phi}, Version::printed);
   for (const double phi : {3.0, 2.25, 1.75}) {
     const double steepest = std::sin(lift_off_angle(Line{phi}, Version::printed));
-    for (int k = 0; k <= points; ++k) {
-      const double part = static_cast<double>(k) / points, sine = steepest * part * part;
-      table.rows.push_back({"", fmt::format("linear Phi={}", phi), sine,
-                            linear_velocity(Line{phi}, std::asin(sine), Version::printed)});
-    }
+    const auto velocity = [&](double part) {
+      return linear_velocity(Line{phi}, std::asin(steepest * part * part), Version::printed);
+    };
+    for (const auto& [part, v] : by_curvature(velocity, 0, 1))
+      table.rows.push_back({"", fmt::format("linear Phi={}", phi), steepest * part * part, v});
   }
   return table;
 }
 
-FigureTable compute_theory_4_20(const FigureContext& context) {
+FigureTable compute_theory_4_20(const FigureContext&) {
   FigureTable table;
   table.comments = {
       "x: size ratio Phi", "y: theta_AB, rad", line_comment,
       "theory: (4.62) as printed; theory corrected: with the angular momentum about the contact kept",
       "a: eps = 0; b: disordered, mean gap 0.1, largest gap 0.2"};
-  const int points = context.quick ? 30 : 120;
   for (const auto& [panel, mean, largest] : {std::tuple{"a", 0.0, 0.0}, std::tuple{"b", 0.1, 0.2}})
-    for (const Version version : {Version::printed, Version::corrected})
-      for (int k = 0; k <= points; ++k) {
-        const double phi = 1.25 + (5 - 1.25) * k / points;
-        table.rows.push_back({panel, name(version), phi, boundary_ab(Line{phi, mean}, largest, version)});
-      }
+    for (const Version version : {Version::printed, Version::corrected}) {
+      const auto logarithm = [&, mean = mean, largest = largest](double phi) {  // as the figure shows it
+        return std::log(boundary_ab(Line{phi, mean}, largest, version));
+      };
+      for (const auto& [phi, y] : by_curvature(logarithm, 1.25, 5))
+        table.rows.push_back({panel, name(version), phi, std::exp(y)});
+    }
   return table;
 }
 

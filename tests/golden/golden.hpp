@@ -30,4 +30,7 @@ std::vector<Golden> all_goldens();
 std::vector<Golden> plot_goldens();
 std::vector<Golden> frame_goldens();
 
+/// What a referee finds wrong with the plots among them, but for parameters, which samples have none of: a line each.
+std::vector<std::string> referee_on_plots();
+
 }  // namespace chute::golden

@@ -10,6 +10,7 @@
 #include "plot/map.hpp"
 #include "plot/mathtext.hpp"
 #include "plot/recipe.hpp"
+#include "plot/referee.hpp"
 
 namespace chute::golden {
 namespace {
@@ -160,7 +161,46 @@ std::vector<Golden> plot_goldens() {
                            {"a note moved", [](Figure& f) { f.panels[0].notes[0].y -= 0.05; }}}),
       golden_of("steps", {{"one series left out", [](Figure& f) { f.panels[0].series.pop_back(); }},
                           {"linear for log", [](Figure& f) { f.panels[0].y.scale = Scale::log; }}}),
+      golden_of("beyond", {{"a point outside forgotten",
+                            [](Figure& f) {
+                              f.panels[0].series[0].x.pop_back();
+                              f.panels[0].series[0].y.pop_back();
+                              f.panels[0].series[0].x_err.pop_back();
+                              f.panels[0].series[0].y_err.pop_back();
+                            }},
+                           {"what is doubtful filled",
+                            [](Figure& f) {
+                              for (auto& s : f.panels[0].series)
+                                if (s.name == "mu=0.1 apart") s.name = "mu=0.1", s.label = "";
+                            }}}),
+      golden_of("factors", {{"an entry for each series", [](Figure& f) { f.panels[0].series[2].marker = 0; }},
+                            {"two styles exchanged",
+                             [](Figure& f) { std::swap(f.panels[0].series[2], f.panels[0].series[4]); }},
+                            {"a word for another", [](Figure& f) { f.words[1].second = "correct"; }}}),
+      golden_of("density", {{"a scale of colours that is not logarithmic",
+                             [](Figure& f) { f.panels[0].map->log = false; }},
+                            {"colour range 2 % wider",
+                             [](Figure& f) {
+                               const auto range = range_of(*f.panels[0].map);
+                               f.panels[0].map->high = range.high + 0.02 * (range.high - range.low);
+                             }},
+                            {"no line at pi/2", [](Figure& f) { f.panels[0].references.clear(); }}}),
+      golden_of("parameters", {{"ranges of their own", [](Figure& f) { f.own_ranges = true; }},
+                               {"one digit of a parameter",
+                                [](Figure& f) { f.panels[1].parameters = f.panels[0].parameters; }}}),
   };
+}
+
+std::vector<std::string> referee_on_plots() {
+  std::vector<std::string> found;
+  for (const auto& golden : plot_goldens()) {
+    if (golden.name == "type") continue;  // a specimen, no figure
+    const auto figure = load(golden.name);
+    for (const auto& f : review(figure, lay_out(figure)))
+      if (f.kind != Finding::Kind::no_parameters)  // most goldens show a kind of mark, and no experiment
+        found.push_back(fmt::format("{}: {}: {}", golden.name, plot::name(f.kind), f.what));
+  }
+  return found;
 }
 
 }  // namespace chute::golden

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <random>
 #include <set>
-#include <tuple>
 
 #include "common/error.hpp"
 #include "plot/layout.hpp"
 #include "plot/marks.hpp"
 #include "plot/mathtext.hpp"
+#include "plot/referee.hpp"
 
 using namespace chute::plot;
 
@@ -121,40 +121,10 @@ Figure random_figure(Dice& dice) {
   return figure;
 }
 
-const char* name_of(Box::Kind kind) {
-  static const char* names[] = {"frame",       "tick label", "axis label", "factor", "title",
-                                "panel label", "legend",     "inset",      "note"};
-  return names[static_cast<int>(kind)];
-}
-
-/// What is wrong with the boxes; empty if nothing is.
-std::string fault(const Layout& layout) {
-  const Rect page{-1e-6, -1e-6, layout.list.width + 1e-6, layout.list.height + 1e-6};
-  const auto& boxes = layout.boxes;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const auto& a = boxes[i];
-    const std::string what = std::string(name_of(a.kind)) + " \"" + a.text + "\"";
-    if (!page.contains(a.rect))
-      return what + " leaves the page: " + std::to_string(a.rect.left) + " " + std::to_string(a.rect.top) +
-             " " + std::to_string(a.rect.right) + " " + std::to_string(a.rect.bottom) + " of " +
-             std::to_string(page.right) + " " + std::to_string(page.bottom);
-    for (std::size_t k = i + 1; k < boxes.size(); ++k) {
-      const auto& b = boxes[k];
-      if (!a.rect.overlaps(b.rect)) continue;
-      const auto inside = [](const Box& box) {
-        return box.kind == Box::Kind::legend || box.kind == Box::Kind::panel_label ||
-               box.kind == Box::Kind::inset || box.kind == Box::Kind::note;
-      };
-      const auto& [frame, other] = a.kind == Box::Kind::frame ? std::tie(a, b) : std::tie(b, a);
-      if (frame.kind == Box::Kind::frame && inside(other) && frame.rect.contains(other.rect)) continue;
-      return what + " overlaps " + name_of(b.kind) + " \"" + b.text + "\"" + " panels " +
-             std::to_string(a.panel) + " " + std::to_string(b.panel) + " " + std::to_string(a.rect.left) +
-             " " + std::to_string(a.rect.top) + " " + std::to_string(a.rect.right) + " " +
-             std::to_string(a.rect.bottom) + " / " + std::to_string(b.rect.left) + " " +
-             std::to_string(b.rect.top) + " " + std::to_string(b.rect.right) + " " +
-             std::to_string(b.rect.bottom);
-    }
-  }
+/// What is wrong with the texts; empty if nothing is.
+std::string fault(const Figure& figure, const Layout& layout) {
+  for (const auto& finding : review(figure, layout))
+    if (finding.kind == Finding::Kind::text_overlap) return finding.what;
   return "";
 }
 
@@ -179,7 +149,7 @@ TEST_CASE("whatever the ranges, no text overlaps another, a frame, or the page's
     const auto figure = random_figure(dice);
     const auto layout = lay_out(figure);
     INFO("figure " << i);
-    REQUIRE(fault(layout) == "");
+    REQUIRE(fault(figure, layout) == "");
   }
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("ranges leave room for markers, start at zero when near it, and stand 
     Extent e;
     e.keep_off = y;
     for (double v : lines) e.include(v, Scale::linear);
-    for (double v : markers) e.include(v, Scale::linear, true);
+    for (double v : markers) e.include(v, Scale::linear, Extent::Mark::marker);
     return e;
   };
   const auto near_zero = span_of({}, extent({}, {0.02, 1}, false));
@@ -140,7 +140,7 @@ TEST_CASE("the data of an axis may be any doubles: its range holds them and can 
     Axis axis;
     axis.scale = i % 2 ? Scale::log : Scale::linear;
     Extent extent;
-    for (const double v : value) extent.include(v, axis.scale, true);
+    for (const double v : value) extent.include(v, axis.scale, Extent::Mark::marker);
     const auto span = span_of(axis, extent);
     if (!(span.low < span.high) || !std::isfinite(span.low) || !std::isfinite(span.high))
       FAIL(value[0] << ", " << value[1] << ": from " << span.low << " to " << span.high);

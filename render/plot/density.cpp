@@ -1,0 +1,67 @@
+#include "plot/density.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chute::plot {
+namespace {
+
+/// Cells of a panel along x and y: about 2 points each in a single column, so that they are seen as areas.
+constexpr std::size_t cells_x = 90, cells_y = 66;
+
+struct Side {
+  double low, high;
+  std::size_t cells;
+  double width() const { return (high - low) / static_cast<double>(cells); }
+  bool holds(double v) const { return v >= low && v <= high; }
+  std::size_t cell(double v) const {
+    return std::min(cells - 1, static_cast<std::size_t>((v - low) / width()));
+  }
+  std::vector<double> middles() const {
+    std::vector<double> m;
+    for (std::size_t k = 0; k < cells; ++k) m.push_back(low + (static_cast<double>(k) + 0.5) * width());
+    return m;
+  }
+};
+
+Side side_of(Axis& axis, const std::vector<double>& values, std::size_t cells) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double v : values)
+    if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+  low = axis.min.value_or(low), high = axis.max.value_or(high);
+  axis.min = low, axis.max = high;  // a map fills its frame
+  return {low, high, cells};
+}
+
+}  // namespace
+
+void draw_crowd_as_density(Panel& panel) {
+  const bool alone = panel.series.size() == 1 && !panel.map && !panel.chains;
+  if (!alone || panel.series[0].kind != Kind::dots || panel.series[0].x.size() <= most_dots ||
+      panel.x.scale == Scale::log || panel.y.scale == Scale::log)
+    return;
+  auto& dots = panel.series[0];
+  const Side x = side_of(panel.x, dots.x, cells_x), y = side_of(panel.y, dots.y, cells_y);
+  if (!(x.high > x.low) || !(y.high > y.low)) return;
+  Map map;
+  map.x = x.middles(), map.y = y.middles();
+  map.log = true, map.label = "dots per cell";
+  std::vector<double> counts(cells_x * cells_y, 0);
+  Series outside = dots;
+  outside.x.clear(), outside.y.clear(), outside.x_err.clear(), outside.y_err.clear();
+  outside.label = "";
+  for (std::size_t i = 0; i < dots.x.size(); ++i) {
+    if (!std::isfinite(dots.x[i]) || !std::isfinite(dots.y[i])) continue;
+    if (x.holds(dots.x[i]) && y.holds(dots.y[i]))
+      counts[y.cell(dots.y[i]) * cells_x + x.cell(dots.x[i])] += 1;
+    else
+      outside.x.push_back(dots.x[i]), outside.y.push_back(dots.y[i]);
+  }
+  map.low = 0;  // one dot
+  for (const double n : counts) map.values.push_back(n > 0 ? std::log10(n) : unknown);
+  panel.map = std::move(map);
+  panel.series.clear();
+  if (!outside.x.empty()) panel.series.push_back(std::move(outside));
+}
+
+}  // namespace chute::plot

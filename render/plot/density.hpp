@@ -1,0 +1,13 @@
+#pragma once
+#include "plot/figure.hpp"
+
+namespace chute::plot {
+
+/// More dots than these run together, and how many lie in one place can no longer be seen.
+inline constexpr std::size_t most_dots = 10'000;
+
+/// Turns the cloud of a panel that has no other series, and more dots than that, into a map of how many lie in each cell, on
+/// a logarithmic scale of colours. Dots outside the limits that the axes have stay dots, and so become arrows at the frame.
+void draw_crowd_as_density(Panel& panel);
+
+}  // namespace chute::plot
