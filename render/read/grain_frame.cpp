@@ -12,8 +12,9 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "common/toml_reader.hpp"
 #include "read/number.hpp"
-#include "read/vtk_points.hpp"
+#include "read/points_file.hpp"
 
 namespace chute::read {
 namespace {
@@ -24,16 +25,17 @@ using Names = std::span<const std::string_view>;
 constexpr std::string_view radius_names[] = {"radius", "Radius", "radii",    "Radii", "r",
                                              "R",      "rad",    "c_radius", "RADIUS"};
 constexpr std::string_view diameter_names[] = {"diameter", "Diameter", "d", "D", "diam", "DIAMETER"};
-constexpr std::string_view velocity_names[] = {"velocity", "Velocity",  "v",      "V",
-                                               "vel",      "linVelVec", "linVel", "VELOCITY"};
+constexpr std::string_view velocity_names[] = {"velocity",  "Velocity", "v",        "V",    "vel",
+                                               "linVelVec", "linVel",   "VELOCITY", "velo", "velocities"};
 constexpr std::string_view spin_names[] = {
     "angular_velocity", "AngularVelocity", "angularVelocity", "omega", "Omega", "angVelVec", "angVel"};
 constexpr std::string_view force_names[] = {"force", "Force", "f", "F", "forceVec", "FORCE"};
 constexpr std::string_view mass_names[] = {"mass", "Mass", "m", "MASS"};
-constexpr std::string_view type_names[] = {"type", "Type", "TYPE"};
+constexpr std::string_view type_names[] = {"type", "Type", "TYPE", "speciesType", "atom_type", "atom_types"};
+constexpr std::string_view species_names[] = {"species", "element", "symbol", "typelabel"};
 constexpr std::string_view id_names[] = {"id", "ID", "Id", "identifier", "Name"};
 constexpr Names groups[] = {radius_names, velocity_names, spin_names, force_names,
-                            mass_names,   type_names,     id_names};
+                            mass_names,   type_names,     id_names,   species_names};
 
 const PointArray* find_one(const std::vector<PointArray>& arrays, std::string_view name) {
   const auto found =
@@ -83,14 +85,24 @@ bool has(Names names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-PointArray* find_any(std::vector<PointArray>& arrays, Names names) {
-  return const_cast<PointArray*>(find_any(std::as_const(arrays), names));
+std::vector<std::string> split(const std::string& names) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= names.size();) {
+    const auto end = std::min(names.find(',', from), names.size());
+    parts.emplace_back(trimmed(std::string_view(names).substr(from, end - from)));
+    from = end + 1;
+  }
+  return parts;
 }
 
 /// Whether the file's array `name` is one of those asked for, or may be a component of it.
-bool is_wanted(std::string_view name, const std::vector<std::string>& wanted) {
+bool is_wanted(std::string_view name, const std::vector<std::string>& wanted, const Meanings& meanings) {
+  for (const auto& one : meanings.said()) {
+    const auto parts = split(*one.array);
+    if (*one.array == name || std::find(parts.begin(), parts.end(), name) != parts.end()) return true;
+  }
   if (wanted.empty() || is_plain(radius_names, name) || is_plain(diameter_names, name) ||
-      has(type_names, name))
+      is_plain(type_names, name) || is_plain(species_names, name))
     return true;
   return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& one) {
     const bool alias = std::any_of(std::begin(groups), std::end(groups),
@@ -116,25 +128,69 @@ void join_components(GrainFrame& frame, const Vector& vector) {
   frame.arrays.push_back(std::move(joined));
 }
 
-std::vector<double> radii(const GrainFrame& frame, std::optional<double> given) {
-  const std::size_t count = frame.size();
-  if (given) return std::vector<double>(count, *given);
-  if (const auto* array = find_any(frame.arrays, radius_names); array && array->components == 1)
-    return array->values;
-  if (const auto* array = find_any(frame.arrays, diameter_names); array && array->components == 1) {
-    auto values = array->values;
+std::string there_are(const GrainFrame& frame) {
+  return frame.names.empty() ? "none" : fmt::format("{}", fmt::join(frame.names, ", "));
+}
+
+/// The file's array that was said to be something, or its components joined under the name that was said.
+const PointArray* find_said(GrainFrame& frame, const std::string& name) {
+  if (const auto* array = find_one(frame.arrays, name)) return array;
+  std::vector<const PointArray*> parts;
+  for (const auto& part : split(name)) parts.push_back(find_one(frame.arrays, part));
+  if (parts.size() < 2 || parts.size() > 3) return nullptr;
+  for (const auto* part : parts)
+    if (!part || part->components != 1) return nullptr;
+  PointArray joined{name, static_cast<int>(parts.size()), {}};
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    for (const auto* part : parts) joined.values.push_back(part->at(i));
+  frame.arrays.push_back(std::move(joined));
+  return &frame.arrays.back();
+}
+
+void take_meanings(GrainFrame& frame, const Meanings& meanings) {
+  for (const auto& [what, name, components] : meanings.said()) {
+    const auto fail = [&](const std::string& why) {
+      const auto hint = nearest(*name, frame.names);
+      throw InputError(
+          fmt::format("{}: {} \"{}\": {}{}; arrays: {}", frame.file.string(), what, *name, why,
+                      hint.empty() || hint == *name ? "" : fmt::format(", did you mean \"{}\"?", hint),
+                      there_are(frame)));
+    };
+    const auto* array = find_said(frame, *name);
+    if (!array) fail("no such array");
+    if (std::find(components.begin(), components.end(), array->components) == components.end())
+      fail(fmt::format("it has {} components, expected {}", array->components,
+                       components[1] ? fmt::format("{} or {}", components[0], components[1])
+                                     : fmt::format("{}", components[0])));
+    if (!array->words.empty() && what != fields::type.name) fail("it holds words, expected numbers");
+    const bool angle = what == fields::orientation.name && array->components == 1;
+    frame.said.emplace_back(angle ? fields::angle.name : what, *name);
+  }
+}
+
+std::vector<double> radii(const GrainFrame& frame, const Meanings& meanings) {
+  if (meanings.radius) return std::vector<double>(frame.size(), *meanings.radius);
+  const auto usable = [](const PointArray* array) {
+    return array && array->components == 1 && array->words.empty();
+  };
+  const auto halves = [](std::vector<double> values) {
     for (double& value : values) value /= 2;
     return values;
-  }
+  };
+  if (!meanings.radius_array.empty()) return find_one(frame.arrays, meanings.radius_array)->values;
+  if (!meanings.diameter_array.empty())
+    return halves(find_one(frame.arrays, meanings.diameter_array)->values);
+  if (const auto* array = find_any(frame.arrays, radius_names); usable(array)) return array->values;
+  if (const auto* array = find_any(frame.arrays, diameter_names); usable(array)) return halves(array->values);
   throw InputError(fmt::format(
-      "{}: no array of radii or diameters (arrays: {}); give a radius for all grains", frame.file.string(),
-      frame.names.empty() ? "none" : fmt::format("{}", fmt::join(frame.names, ", "))));
+      "{}: no array of radii or diameters (arrays: {}); say which it is, or a radius for all grains, with --radius or --diameter",
+      frame.file.string(), there_are(frame)));
 }
 
 /// Codes in the plane write vectors of two components.
 void fill_vectors(GrainFrame& frame) {
-  for (const Names names : {Names(velocity_names), Names(force_names)}) {
-    auto* array = find_any(frame.arrays, names);
+  for (const std::string_view name : {fields::velocity.name, fields::force.name}) {
+    auto* array = const_cast<PointArray*>(std::as_const(frame).find(name));
     if (!array || array->components != 2) continue;
     PointArray full{array->name, 3, {}};
     full.values.reserve(3 * frame.size());
@@ -142,6 +198,16 @@ void fill_vectors(GrainFrame& frame) {
       for (const double part : {array->at(i, 0), array->at(i, 1), 0.0}) full.values.push_back(part);
     *array = std::move(full);
   }
+}
+
+void take_lattice(GrainFrame& frame, const Lattice& lattice) {
+  frame.lattice = lattice;
+  for (int edge = 0; edge < 3; ++edge)
+    if (const int axis = lattice.axis_of(edge);
+        axis >= 0 && lattice.periodic[static_cast<std::size_t>(edge)]) {
+      frame.domain.min()[axis] = lattice.origin[axis];
+      frame.domain.max()[axis] = lattice.origin[axis] + lattice.edges(axis, edge);
+    }
 }
 
 /// A grain without a place or a size cannot be drawn: what an unstable step threw out, deleted and reserved places.
@@ -170,10 +236,19 @@ void leave_out_lost(GrainFrame& frame) {
 }  // namespace
 
 const PointArray* GrainFrame::find(std::string_view name) const {
+  for (const auto& [what, array] : said)
+    if (what == name) return find_one(arrays, array);
   if (const auto* array = find_one(arrays, name)) return array;
   for (const Names group : groups)
     if (has(group, name)) return find_any(arrays, group);
   return nullptr;
+}
+
+Eigen::Vector3d GrainFrame::shortest(Eigen::Vector3d way) const {
+  if (lattice) return lattice->shortest(way);
+  for (int c = 0; c < 3; ++c)
+    if (const double length = period(c); length > 0) way[c] -= length * std::round(way[c] / length);
+  return way;
 }
 
 bool GrainFrame::is_fixed(std::size_t grain) const {
@@ -181,11 +256,11 @@ bool GrainFrame::is_fixed(std::size_t grain) const {
   return type && type->components == 1 && type->at(grain) == 0;
 }
 
-GrainFrame parse_frame(std::vector<FileBytes> parts, std::optional<double> radius,
+GrainFrame parse_frame(std::vector<FileBytes> parts, const Meanings& meanings,
                        const std::vector<std::string>& wanted) {
   const auto path = parts.front().path;
-  VtkPoints points =
-      parse_vtk(std::move(parts), [&](std::string_view name) { return is_wanted(name, wanted); });
+  PointSet points = parse_points(std::move(parts),
+                                 [&](std::string_view name) { return is_wanted(name, wanted, meanings); });
   GrainFrame frame;
   frame.file = path;
   frame.x = std::move(points.x), frame.y = std::move(points.y), frame.z = std::move(points.z);
@@ -206,24 +281,28 @@ GrainFrame parse_frame(std::vector<FileBytes> parts, std::optional<double> radiu
   if (const auto* gravity = find_one(points.field_arrays, fields::gravity);
       gravity && gravity->values.size() == 3)
     frame.gravity = Eigen::Map<const Eigen::Vector3d>(gravity->values.data());
-  frame.own = !frame.units.empty() || find_one(points.field_arrays, fields::gravity) ||
-              find_one(points.field_arrays, fields::domain);
+  frame.own = points.format == PointSet::Format::vtk &&
+              (!frame.units.empty() || find_one(points.field_arrays, fields::gravity) ||
+               find_one(points.field_arrays, fields::domain));
+  if (points.lattice) take_lattice(frame, *points.lattice);
   if (frame.size() == 0) {
     frame.dimensions = 2;
     return frame;
   }
   for (const Vector& vector : vectors) join_components(frame, vector);
-  frame.radius = radii(frame, radius);
+  take_meanings(frame, meanings);
+  frame.radius = radii(frame, meanings);
   fill_vectors(frame);
   leave_out_lost(frame);
   const auto [low, high] = std::minmax_element(frame.z.begin(), frame.z.end());
-  frame.dimensions = *low == *high && frame.period(2) == 0 ? 2 : 3;
+  // Others give their planes a thickness, and periods along it.
+  frame.dimensions = *low == *high && (frame.period(2) == 0 || !frame.own) ? 2 : 3;
   return frame;
 }
 
-GrainFrame read_frame(const std::filesystem::path& path, std::optional<double> radius,
+GrainFrame read_frame(const std::filesystem::path& path, const Meanings& meanings,
                       const std::vector<std::string>& wanted) {
-  return parse_frame(read_parts(path), radius, wanted);
+  return parse_frame(read_parts(path), meanings, wanted);
 }
 
 }  // namespace chute::read

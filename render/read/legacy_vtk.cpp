@@ -72,13 +72,13 @@ constexpr Type types[] = {{"float", 4, big_endian<float>},
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : all_(bytes) {}
-  VtkPoints read();
+  PointSet read();
 
  private:
   std::string_view all_;
   std::size_t at_ = 0;
   bool binary_ = false;
-  VtkPoints result_;
+  PointSet result_;
   std::vector<std::vector<double>> cells_;  ///< connectivity, in the order of the file
   std::size_t points_ = 0, tuples_ = 0;     ///< tuples of the data section that is being read
   std::vector<PointArray>* data_ = nullptr;
@@ -279,7 +279,7 @@ void Reader::take_cells() {
   }
 }
 
-VtkPoints Reader::read() {
+PointSet Reader::read() {
   const auto head = line();
   double version = 0;
   const auto number = head.substr(std::min(head.size(), std::string_view("# vtk DataFile Version ").size()));
@@ -332,6 +332,6 @@ VtkPoints Reader::read() {
 
 }  // namespace
 
-VtkPoints parse_legacy_vtk(std::string_view bytes) { return Reader(bytes).read(); }
+PointSet parse_legacy_vtk(std::string_view bytes) { return Reader(bytes).read(); }
 
 }  // namespace chute::read

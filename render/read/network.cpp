@@ -13,7 +13,7 @@
 namespace chute::read {
 
 std::vector<ForceLink> parse_network(std::string bytes, const std::filesystem::path& path) {
-  const VtkPoints points = parse_vtk(std::move(bytes), path);
+  const PointSet points = parse_vtk(std::move(bytes), path);
   const PointArray* strength = nullptr;
   for (const std::string_view name :
        {fields::normal_force.name, fields::force.name, std::string_view("Force"),

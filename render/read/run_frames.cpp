@@ -14,7 +14,9 @@
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "read/byte_stream.hpp"
 #include "read/number.hpp"
+#include "read/points_file.hpp"
 
 namespace chute::read {
 namespace fs = std::filesystem;
@@ -112,18 +114,45 @@ bool is_vtk(const fs::path& path) {
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
+/// The frames of files of text.
+std::vector<FrameFile> text_frames(const std::vector<fs::path>& files) {
+  std::vector<FrameFile> frames;
+  for (const auto& file : files)
+    for (auto& piece : find_pieces(file)) {
+      auto& frame = frames.emplace_back(FrameFile{file, {}, piece.time, {}});
+      frame.piece = std::move(piece);
+    }
+  if (!std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.time.has_value(); }))
+    return frames;
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const auto& a, const auto& b) { return *a.time < *b.time; });
+  std::vector<FrameFile> last;
+  for (auto& frame : frames) {
+    if (!last.empty() && last.back().time == frame.time) last.pop_back();
+    last.push_back(std::move(frame));
+  }
+  return last;
+}
+
 std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pattern) {
-  std::vector<std::string> names;
+  std::vector<std::string> names, others;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory.empty() ? "." : directory, error)) {
     const auto name = entry.path().filename().string();
     // LIGGGHTS writes its walls' box beside every dump
-    if (!is_vtk(name) || name.starts_with('.') || name.find("boundingBox") != std::string::npos) continue;
-    if (fnmatch(pattern.c_str(), name.c_str(), 0) == 0) names.push_back(name);
+    if (name.starts_with('.') || name.find("boundingBox") != std::string::npos) continue;
+    if (fnmatch(pattern.c_str(), name.c_str(), 0) == 0) (is_vtk(name) ? names : others).push_back(name);
+  }
+  if (names.empty()) {
+    std::sort(others.begin(), others.end(), natural_less);
+    std::vector<fs::path> texts;
+    for (const auto& name : others)
+      if (text_format_of(directory / name)) texts.push_back(directory / name);
+    return text_frames(texts);
   }
   std::sort(names.begin(), names.end(), natural_less);
   std::vector<FrameFile> frames;
-  for (const auto& name : names) frames.push_back({directory / name, {}, {}, {}});
+  for (const auto& name : names) frames.push_back(FrameFile{directory / name, {}, {}, {}});
   return frames;
 }
 
@@ -143,7 +172,8 @@ std::vector<FrameFile> frames_of(const fs::path& source) {
   if (fs::exists(source, error)) {
     if (source.extension() == ".pvd") return read_pvd(source);
     if (source.extension() == ".series") return read_series_index(source);
-    return {{source, {}, {}, {}}};
+    if (text_format_of(source)) return text_frames({source});
+    return {FrameFile{source, {}, {}, {}}};
   }
   const auto pattern = source.filename().string();
   if (pattern.find_first_of("*?[") != std::string::npos) return files_in(source.parent_path(), pattern);
@@ -188,13 +218,17 @@ std::vector<FrameFile> read_series_index(const fs::path& path) {
 std::vector<FrameFile> find_frames(const fs::path& source) {
   auto frames = frames_of(source);
   if (frames.empty())
-    throw InputError(source.string() + ": no frames: no VTK file (.vtp, .vtu, .vtk, .vti) is there");
+    throw InputError(source.string() +
+                     ": no frames: no VTK file (.vtp, .vtu, .vtk, .vti), dump or XYZ file is there");
   for (auto& frame : frames)
     frame.contacts = find_beside(frame, (fs::path("contacts") / frame.path.filename()).string());
   return frames;
 }
 
 std::vector<FileBytes> read_files(const FrameFile& frame) {
+  if (frame.piece)
+    return {{frame.path, read_piece(frame.path, frame.piece->from, frame.piece->size),
+             frame.piece->first_line, frame.piece->units}};
   auto files = read_parts(frame.path);
   for (const auto& more : frame.more)
     for (auto& part : read_parts(more)) files.push_back(std::move(part));

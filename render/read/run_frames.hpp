@@ -5,17 +5,19 @@
 #include <string_view>
 #include <vector>
 
-#include "read/vtk_points.hpp"
+#include "read/text_frames.hpp"
 
 namespace chute::read {
 
 /// One output time of a run.
 struct FrameFile {
   std::filesystem::path path;
-  std::vector<std::filesystem::path>
-      more;                        ///< further parts of the same time, one a processor or a kind of grains
-  std::optional<double> time;      ///< if the index says; else the file itself may
-  std::filesystem::path contacts;  ///< the contact network at that time, empty if there is none
+  std::vector<std::filesystem::path> more =
+      {};                           ///< further parts of the same time, one a processor or a kind of grains
+  std::optional<double> time = {};  ///< if the index says; else the file itself may
+  std::filesystem::path contacts = {};  ///< the contact network at that time, empty if there is none
+  std::optional<TextPiece> piece =
+      {};  ///< of a file of text, which may hold several frames: where this one stands
 };
 
 /// Reads ParaView's time index (.pvd): times and files, sorted by time. Paths are relative to the index. Parts of one time
@@ -31,7 +33,9 @@ std::vector<FrameFile> read_series_index(const std::filesystem::path& path);
 /// - a run directory (its frames.pvd), or a directory of VTK files (any engine's), in natural order of their
 /// names;
 /// - an index of times (.pvd, .series), or one VTK file, also an index of parts (.pvtp, .pvtu, .vtm);
-/// - a pattern with `*` and `?` in its last part, such as `post/dump*.vtk`.
+/// - a pattern with `*` and `?` in its last part, such as `post/dump*.vtk`;
+/// and instead of VTK files dumps of LAMMPS or XYZ files, with one frame each or many, packed or not. Of these, frames with
+/// a time stand in its order, and a time that comes again replaces the earlier one.
 /// A file contacts/NAME beside frames/NAME is that frame's contact network. InputError if nothing is found.
 std::vector<FrameFile> find_frames(const std::filesystem::path& source);
 

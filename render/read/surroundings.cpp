@@ -20,7 +20,7 @@ const PointArray* find_scalar(const std::vector<PointArray>& arrays, std::string
 }
 
 /// A point of the file, finite.
-Eigen::Vector3d point(const VtkPoints& points, std::size_t i, const std::filesystem::path& path) {
+Eigen::Vector3d point(const PointSet& points, std::size_t i, const std::filesystem::path& path) {
   const Eigen::Vector3d p{points.x[i], points.y[i], points.z[i]};
   if (!p.allFinite())
     throw InputError(fmt::format("{}: point {}: a coordinate is not a finite number", path.string(), i));
@@ -30,7 +30,7 @@ Eigen::Vector3d point(const VtkPoints& points, std::size_t i, const std::filesys
 }  // namespace
 
 std::vector<WallPiece> read_walls(const std::filesystem::path& path) {
-  const VtkPoints points = parse_vtk(read_file(path), path);
+  const PointSet points = parse_vtk(read_file(path), path);
   const auto* number = find_scalar(points.cell_arrays, fields::wall.name);
   std::vector<WallPiece> pieces;
   for (const auto& cell : points.cells) {
@@ -42,7 +42,7 @@ std::vector<WallPiece> read_walls(const std::filesystem::path& path) {
 }
 
 std::vector<Impact> read_impacts(const std::filesystem::path& path) {
-  const VtkPoints points = parse_vtk(read_file(path), path);
+  const PointSet points = parse_vtk(read_file(path), path);
   const auto *time = find_scalar(points.point_arrays, fields::time.name),
              *bead = find_scalar(points.point_arrays, fields::bead.name);
   if (!points.x.empty() && (!time || !bead))

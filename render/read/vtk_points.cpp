@@ -174,8 +174,8 @@ std::vector<PointArray> arrays_of(vtkFieldData* data) {
 }
 
 /// The arrays, points and lines of what VTK has read.
-VtkPoints copied(vtkPointSet* set) {
-  VtkPoints result;
+PointSet copied(vtkPointSet* set) {
+  PointSet result;
   const auto count = static_cast<std::size_t>(set->GetNumberOfPoints());
   result.x.resize(count), result.y.resize(count), result.z.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -210,7 +210,7 @@ VtkPoints copied(vtkPointSet* set) {
 }
 
 /// Throws std::runtime_error that says what is wrong.
-VtkPoints parse_xml(std::string& bytes, bool polydata, const Wanted& wanted) {
+PointSet parse_xml(std::string& bytes, bool polydata, const Wanted& wanted) {
   if (const auto fault = xml_fault(bytes); !fault.empty()) throw std::runtime_error(fault);
   const Listening listening;
   std::vector<std::string> names;
@@ -224,7 +224,7 @@ VtkPoints parse_xml(std::string& bytes, bool polydata, const Wanted& wanted) {
 }
 
 /// A legacy file has to be read from end to end; what is not wanted is dropped.
-VtkPoints parse_legacy(std::string_view bytes, const Wanted& wanted) {
+PointSet parse_legacy(std::string_view bytes, const Wanted& wanted) {
   auto result = parse_legacy_vtk(bytes);
   for (const auto& array : result.point_arrays) result.point_names.push_back(array.name);
   std::erase_if(result.point_arrays, [&](const PointArray& array) { return !wanted(array.name); });
@@ -233,7 +233,7 @@ VtkPoints parse_legacy(std::string_view bytes, const Wanted& wanted) {
 
 }  // namespace
 
-VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path, const Wanted& wanted) {
+PointSet parse_vtk(std::string bytes, const std::filesystem::path& path, const Wanted& wanted) {
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   if (bytes.empty()) fail("the file is empty");
   const auto [is_xml, type] = xml_head(bytes);
@@ -241,7 +241,7 @@ VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path, const 
     fail(fmt::format("a VTK file of type {}, expected PolyData or UnstructuredGrid", type));
   if (!is_xml && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
   if (is_xml) bytes.resize(without_tail(bytes).size());
-  VtkPoints result;
+  PointSet result;
   try {
     result = is_xml ? parse_xml(bytes, type == "PolyData", wanted) : parse_legacy(bytes, wanted);
   } catch (const std::bad_alloc&) {
@@ -255,26 +255,8 @@ VtkPoints parse_vtk(std::string bytes, const std::filesystem::path& path, const 
   return result;
 }
 
-std::vector<FileBytes> read_parts(const std::filesystem::path& path) {
-  std::vector<FileBytes> files;
-  std::string bytes = read_file(path);
-  const auto sources = part_sources(bytes);
-  if (!sources) {
-    files.push_back({path, std::move(bytes)});
-    return files;
-  }
-  if (sources->empty()) throw InputError(path.string() + ": an index of parts that names none");
-  for (const auto& source : *sources) {
-    const auto part = path.parent_path() / source;
-    files.push_back({part, read_file(part)});
-    if (part_sources(files.back().bytes))
-      throw InputError(fmt::format("{}: its part {} is an index itself", path.string(), source));
-  }
-  return files;
-}
-
-VtkPoints parse_vtk(std::vector<FileBytes> parts, const Wanted& wanted) {
-  VtkPoints whole;
+PointSet parse_vtk(std::vector<FileBytes> parts, const Wanted& wanted) {
+  PointSet whole;
   for (auto& file : parts) {
     auto part = parse_vtk(std::move(file.bytes), file.path, wanted);
     if (part.x.empty() && &file != &parts.front()) continue;

@@ -10,7 +10,7 @@
 #include "common/columns.hpp"
 #include "common/fields.hpp"
 #include "plot/legend.hpp"
-#include "read/vtk_points.hpp"
+#include "read/points_file.hpp"
 #include "report/topics.hpp"
 #include "view/color_field.hpp"
 
@@ -239,7 +239,7 @@ std::vector<plot::Panel> return_panels(Runs runs, std::string& caption) {
   for (const auto& run : runs) {
     if (!run.has("impacts.vtp")) continue;
     const auto points =
-        read::parse_vtk(read::read_parts(run.path / "impacts.vtp"), [](std::string_view name) {
+        read::parse_points(read::read_parts(run.path / "impacts.vtp"), [](std::string_view name) {
           return name == fields::gamma.name || name == fields::gamma_before.name;
         });
     const auto find = [&](std::string_view name) -> const std::vector<double>* {

@@ -35,10 +35,11 @@ struct Fit {
   double size;  ///< width of the scene
 };
 
-Fit beside(Arrangement places, double width, double height, double aspect, double title, double labels) {
+Fit beside(Arrangement places, double width, double height, double aspect, const BarTexts& texts) {
   const double em = places.em;
-  const double panel = em * std::max(places.has_bar ? std::max(title, bar_width + label_gap + labels) : 0,
-                                     places.has_gravity ? gravity_width : 0);
+  const double panel =
+      em * std::max(places.has_bar ? std::max(texts.title, bar_width + label_gap + texts.longest_label) : 0,
+                    places.has_gravity ? gravity_width : 0);
   const double space = panel > 0 ? gap * em : 0;
   const double top = places.has_time || places.has_key ? line * em : 0, bottom = places.foot * em;
   const double free_width = width - 2 * margin * em - space - panel,
@@ -65,7 +66,7 @@ Fit beside(Arrangement places, double width, double height, double aspect, doubl
   return {places, places.bar.height() < 5 * em && places.has_bar ? 0.0 : w};
 }
 
-Fit below(Arrangement places, double width, double height, double aspect, double title, double labels) {
+Fit below(Arrangement places, double width, double height, double aspect, const BarTexts& texts) {
   const double em = places.em;
   const double top = places.has_time || places.has_key ? line * em : 0;
   const double row = em * (places.has_gravity ? gravity_height + 0.6 : places.has_bar ? 3.4 : places.foot);
@@ -81,20 +82,23 @@ Fit below(Arrangement places, double width, double height, double aspect, double
   // between the scale bar with its label and the arrows: title, then colours
   const double from = left + (places.has_scale ? longest_scale(places.scene, em) + 4.2 * em : 0),
                to = left + w - em * (places.has_gravity ? gravity_width + 2 : 0);
-  const double length = std::min(to - from - em * (title + 0.9 + labels), 1.3 * longest_bar * em);
-  const double start = from + (to - from - length - em * (title + 0.9)) / 2;
+  const bool kinds = texts.kinds > 0;
+  const double room = to - from - em * (texts.title + 0.9 + (kinds ? 0 : texts.longest_label));
+  const double length = std::min(room, (kinds ? texts.kinds : 1.3 * longest_bar) * em);
+  const double start = from + (to - from - length - em * (texts.title + 0.9)) / 2;
   const double y = above + h + 1.25 * em;
   places.title = {start, y + 0.3 * em};
-  places.bar = {start + (title + 0.9) * em, y - bar_width / 2 * em, start + (title + 0.9) * em + length,
-                y + bar_width / 2 * em};
+  places.bar = {start + (texts.title + 0.9) * em, y - bar_width / 2 * em,
+                start + (texts.title + 0.9) * em + length, y + bar_width / 2 * em};
   places.upright_bar = false;
-  return {places, length < 7 * em && places.has_bar ? 0.0 : w};
+  // a bar needs some length, kinds fit into two rows
+  const double least = kinds ? std::max(texts.longest_label + 3, 0.55 * texts.kinds) : 7;
+  return {places, length < least * em && places.has_bar ? 0.0 : w};
 }
 
 }  // namespace
 
-Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
-                    double label_width) {
+Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, const BarTexts& texts) {
   const double width = style.width, height = style.height;
   Arrangement places;
   // readable at 400 x 300, quiet at 1920 x 1080
@@ -113,8 +117,8 @@ Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect
   // in space the scale bar is part of the scene, only its label may reach below
   places.foot = survey.dimensions == 2 ? foot : 0.8;
   const auto fit = [&](double room_width, double room_height) {
-    const auto side = beside(places, room_width, room_height, aspect, title_width, label_width);
-    const auto under = below(places, room_width, room_height, aspect, title_width, label_width);
+    const auto side = beside(places, room_width, room_height, aspect, texts);
+    const auto under = below(places, room_width, room_height, aspect, texts);
     return side.size >= under.size ? side : under;
   };
   if (survey.series.empty()) {

@@ -22,10 +22,14 @@ struct Arrangement {
   plot::Rect gravity;       ///< the arrows that show where gravity points
 };
 
-/// `aspect` = width / height of what is to be seen. `title_width` and `label_width` in em: of the colour
-/// bar's texts. InputError if the picture is too small for the plot that is wanted.
-Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, double title_width,
-                    double label_width);
+/// Widths of the colour bar's texts, in em.
+struct BarTexts {
+  double title = 0, longest_label = 0;
+  double kinds = 0;  ///< of all patches and names in one row, where kinds stand in place of the bar
+};
+
+/// `aspect` = width / height of what is to be seen. InputError if the picture is too small for the plot that is wanted.
+Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, const BarTexts& texts);
 
 /// The room for a scale bar below the scene, pixels; its label stands to the right of it.
 double longest_scale(const plot::Rect& scene, double em);

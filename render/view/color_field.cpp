@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
@@ -25,6 +27,16 @@ std::string canonical(std::string_view name, const read::GrainFrame& frame) {
   for (const auto& field : fields::grain_fields)
     if (array && frame.find(field.name) == array) return std::string(field.name);
   return std::string(name);
+}
+
+bool differ(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) != values.end();
+}
+
+/// Our own `type` only says what is glued; another program's is a species.
+bool is_kind(const read::PointArray& array, const read::GrainFrame& frame) {
+  if (!array.words.empty() || array.name == fields::material.name) return true;
+  return !frame.own && (&array == frame.find(fields::type.name) || &array == frame.find("species"));
 }
 
 /// A letter or a command is mathematics, a word is text.
@@ -62,6 +74,16 @@ std::vector<double> ColorField::values(const read::GrainFrame& frame) const {
       result[i] = source->at(i, component);
     }
   }
+  if (!source->words.empty()) {  // each file counts its own
+    std::vector<double> numbers;
+    for (const auto& word : source->words) {
+      const auto found = std::find(words.begin(), words.end(), word);
+      numbers.push_back(found == words.end() ? std::numeric_limits<double>::quiet_NaN()
+                                             : static_cast<double>(found - words.begin()));
+    }
+    for (double& value : result)
+      if (std::isfinite(value)) value = numbers[static_cast<std::size_t>(value)];
+  }
   return result;
 }
 
@@ -87,16 +109,18 @@ bool ColorField::is_signed() const {
   return field && (field->is_signed || (part == Part::component));
 }
 
-bool ColorField::names_kinds() const { return array == fields::material.name && part == Part::scalar; }
-
 std::string color_array(std::string_view text) { return std::string(text.substr(0, text.rfind(':'))); }
 
 ColorField find_field(std::string_view text, const read::GrainFrame& frame) {
   if (text == "none") return {};
   if (text.empty()) {
-    if (!frame.clock.empty()) return {};  // where no time passes there is no speed
+    if (frame.own && !frame.clock.empty()) return {};  // where no time passes there is no speed
     if (const auto* v = frame.find(fields::velocity.name); v && v->components == 3)
       return {std::string(fields::velocity.name), ColorField::Part::magnitude, 0};
+    for (const std::string_view name : {std::string_view("species"), fields::type.name})
+      if (const auto* kinds = frame.find(name);
+          kinds && !frame.own && kinds->components == 1 && differ(kinds->values))
+        return {canonical(name, frame), ColorField::Part::scalar, 0, true};
     return {};
   }
   const auto colon = text.rfind(':');
@@ -115,6 +139,7 @@ ColorField find_field(std::string_view text, const read::GrainFrame& frame) {
                                  fmt::join(there, ", ")));
   }
   ColorField field{canonical(name, frame), ColorField::Part::scalar, 0};
+  field.kinds = array->components == 1 && is_kind(*array, frame);
   if (array->components == 1 && part.empty()) return field;
   if (array->components > 1 && (part == "magnitude" || (part.empty() && array->components <= 3))) {
     field.part = ColorField::Part::magnitude;

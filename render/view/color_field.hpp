@@ -13,22 +13,23 @@ struct ColorField {
   std::string array;  ///< empty: nothing, a plain colour
   Part part = Part::scalar;
   int component = 0;
+  bool kinds = false;  ///< its values stand for kinds, such as materials and species, which have no order
+  std::vector<std::string> words =
+      {};  ///< of a field of words: those that have a colour. Its values count these
 
   bool is_none() const { return array.empty(); }
-  /// One value per grain. InputError naming the file if it lacks the array.
+  /// One value per grain; not a number for a word that is not among `words`. InputError naming the file if it lacks the array.
   std::vector<double> values(const read::GrainFrame& frame) const;
   /// What the colour bar says, in the plots' TeX: symbol and unit.
   std::string title(const std::string& units) const;
   /// The field is known to take both signs.
   bool is_signed() const;
-  /// Its values stand for kinds, such as materials, which have no order.
-  bool names_kinds() const;
 };
 
 /// The array that `text` names, without the component: of `velocity:x`, velocity.
 std::string color_array(std::string_view text);
 
-/// Resolves `velocity`, `velocity:x`, `force:magnitude`, `none`, or nothing (the speed, if there is one, and where time passes)
+/// Resolves `velocity`, `velocity:x`, `force:magnitude`, `none`, or nothing (the speed, if there is one, and where time passes; else species, if there are several)
 /// against the arrays of a frame. InputError naming the arrays there are, and the nearest, if there is none
 /// of that name.
 ColorField find_field(std::string_view text, const read::GrainFrame& frame);

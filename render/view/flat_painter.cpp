@@ -43,7 +43,7 @@ class FlatPainter : public Painter {
         scene_(context_, studio.style.width, studio.style.height, studio.palette.ground,
                studio.palette.ground_alpha) {
     const auto& survey = studio_.survey;
-    map_.turn = Eigen::Rotation2Dd(studio_.style.tilt ? -survey.slope : 0);
+    map_.turn = Eigen::Rotation2Dd(survey.turn);
     const auto window = seen();
     const Point size = window.sizes();
     furniture = std::make_unique<Furniture>(studio_, size.x() / size.y());
@@ -51,7 +51,9 @@ class FlatPainter : public Painter {
     map_.scale = map_.rect.width() / size.x();
     map_.origin = window.min();
     // arrows may reach a little beyond what was fitted
-    scene_.clip(studio_.style.camera.window ? map_.rect : map_.rect.grown(1.3 * furniture->places().em));
+    scene_.clip(studio_.style.camera.window
+                    ? map_.rect
+                    : map_.rect.grown(survey.cropped ? 1 : 1.3 * furniture->places().em));
     Directions directions;
     const auto& g = survey.gravity;
     if (const double strength = g.head<2>().norm(); strength > 0)

@@ -6,7 +6,7 @@
 namespace chute::view {
 
 Following::Following(const Survey& survey) : survey_(survey) {
-  follows_[0] = true;
+  follows_[survey.up_axis == 0 ? 1 : 0] = true;  // along the slope
   for (int c = 0; c < 3; ++c)
     follows_[static_cast<std::size_t>(c)] =
         follows_[static_cast<std::size_t>(c)] || survey.domain.sizes()[c] > 0;

@@ -20,6 +20,8 @@ void FrameStyle::check() const {
             fmt::format("colour range {}:{}: the first value must be below the second", range->first,
                         range->second));
   if (!map.empty()) ColorMap{map};
+  if (up) require(up->allFinite() && up->norm() > 0, "up: needs a direction");
+  require(!(up && tilt), "tilt turns gravity down, up another direction up: one of them");
   if (const auto& w = camera.window)
     require((*w)[0] < (*w)[1] && (*w)[2] < (*w)[3],
             "camera window X0:X1:Y0:Y1: X0 < X1 and Y0 < Y1 are needed");
@@ -42,12 +44,28 @@ std::string FrameStyle::describe() const {
                         (*camera.window)[3]);
   if (camera.follow)
     text += camera.follow->id ? fmt::format(" follow={}", *camera.follow->id) : std::string(" follow=mean");
+  if (up) text += fmt::format(" up={}:{}:{}", up->x(), up->y(), up->z());
+  for (const auto& name : species) text += fmt::format(" kind={}:{}", name.size(), name);
+  if (camera.all) text += " all";
   for (const Cut& cut : cuts) text += fmt::format(" cut={}{}{}", cut.axis, cut.above ? '>' : '<', cut.value);
   return text + fmt::format(
                     " eye={}:{}:{} tilt={:d} arrows={:d} chains={:d} copies={:d} impacts={:d} occlusion={:d} "
                     "outlines={:d} floor={:d} box={:d} spin={:d} furniture={:d} trail={}",
                     camera.azimuth, camera.elevation, camera.zoom, tilt, arrows, chains, copies, impacts,
                     occlusion, outlines, floor, box, spin, furniture, trail);
+}
+
+const std::array<Rgb, kind_color_count>& kind_colors(Background background) {
+  constexpr auto bytes = [](int r, int g, int b) { return Rgb{r / 255., g / 255., b / 255.}; };
+  // The first three are Okabe and Ito's blue, vermilion and green. The others were searched for among colours of usual palettes such that
+  // all pairs, also with bed and ground, stay as far apart as can be in CIELAB, as seen with all cones, without M and without L cones.
+  static constexpr std::array light{bytes(0x00, 0x72, 0xb2), bytes(0xd5, 0x5e, 0x00), bytes(0x00, 0x9e, 0x73),
+                                    bytes(0xf0, 0xe4, 0x42), bytes(0x88, 0xcc, 0xee), bytes(0x33, 0x22, 0x88),
+                                    bytes(0x66, 0x11, 0x00), bytes(0xaa, 0xf0, 0xa0)};
+  static constexpr std::array dark{bytes(0x56, 0xb4, 0xe9), bytes(0xf0, 0x88, 0x3e), bytes(0x2c, 0xc7, 0x9b),
+                                   bytes(0xff, 0xc2, 0x0a), bytes(0xff, 0xff, 0xff), bytes(0x1a, 0x85, 0xff),
+                                   bytes(0x8c, 0x2d, 0x04), bytes(0x33, 0x22, 0x88)};
+  return background == Background::dark ? dark : light;
 }
 
 Palette palette_of(Background background) {

@@ -24,7 +24,8 @@ struct Camera {
   /// 3D, degrees: the eye goes around the incline's normal, 0 looks across the flow with x to the right, 90
   /// looks up the slope at what comes down; elevation is above the incline's plane.
   double azimuth = 30, elevation = 22;
-  double zoom = 1;  ///< 3D: > 1 is nearer than what shows the whole run
+  bool all = false;  ///< every grain is in view, also one that was thrown far out
+  double zoom = 1;   ///< 3D: > 1 is nearer than what shows the whole run
   /// Places then count from what is followed, along the slope and along what is periodic; else the camera stands.
   std::optional<Follow> follow;
 };
@@ -47,19 +48,22 @@ struct FrameStyle {
   std::string map;                                 ///< empty: viridis, or rdbu for values of both signs
   std::optional<std::pair<double, double>> range;  ///< of the colours; else from the whole run
   Background background = Background::white;
-  bool tilt = false;       ///< turn the picture so that gravity points down
-  bool arrows = false;     ///< velocity arrows
-  bool chains = false;     ///< contact forces as lines, wide where the force is large
-  bool copies = false;     ///< faded copies beyond the periodic ends
-  bool impacts = false;    ///< marks where grains of the bed were hit so far
-  bool occlusion = false;  ///< 3D: ambient occlusion
-  bool outlines = false;   ///< 3D: a dark line inside the rim of every grain
-  bool floor = false;      ///< 3D: shadows on a plane below
-  bool box = false;        ///< 3D: edges of the periodic box, or of the box of all grains
-  bool spin = true;        ///< marks that turn with the grains
-  bool furniture = true;   ///< colour bar, time, scale bar, gravity
-  int trail = 0;           ///< earlier frames whose positions are drawn as a trail
-  std::vector<Cut> cuts;   ///< grains whose centres lie in one of them are left out
+  /// Which way is up, of any length; else against gravity, or what the survey finds.
+  std::optional<Eigen::Vector3d> up;
+  std::vector<std::string> species;  ///< names of kinds, in the order of their numbers
+  bool tilt = false;                 ///< turn the picture so that gravity points down
+  bool arrows = false;               ///< velocity arrows
+  bool chains = false;               ///< contact forces as lines, wide where the force is large
+  bool copies = false;               ///< faded copies beyond the periodic ends
+  bool impacts = false;              ///< marks where grains of the bed were hit so far
+  bool occlusion = false;            ///< 3D: ambient occlusion
+  bool outlines = false;             ///< 3D: a dark line inside the rim of every grain
+  bool floor = false;                ///< 3D: shadows on a plane below
+  bool box = false;                  ///< 3D: edges of the periodic box, or of the box of all grains
+  bool spin = true;                  ///< marks that turn with the grains
+  bool furniture = true;             ///< colour bar, time, scale bar, gravity
+  int trail = 0;                     ///< earlier frames whose positions are drawn as a trail
+  std::vector<Cut> cuts;             ///< grains whose centres lie in one of them are left out
   Camera camera;
 
   /// InputError if a value is out of bounds (sizes from 64 to 8192, range LOW < HIGH …).
@@ -75,5 +79,9 @@ struct Palette {
   double ground_alpha;
 };
 Palette palette_of(Background background);
+
+inline constexpr std::size_t kind_color_count = 8;
+/// Colours of kinds: told apart by all eyes, and from the bed and the ground.
+const std::array<Rgb, kind_color_count>& kind_colors(Background background);
 
 }  // namespace chute::view

@@ -78,7 +78,9 @@ std::string degrees_text(double radians) {
   return fmt::format("{:g}", std::round(degrees * 10) / 10);
 }
 
-std::string kind_label(long long kind) { return fmt::format("${}$", kind); }
+constexpr double patch = 0.85, patch_gap = 0.45;  // em: side of a kind's patch, and to its text
+constexpr double kind_gap = 1.1;                  // em: from a text to the next patch beside it
+constexpr double kind_line = 1.5;                 // em: from a row of patches to the next
 
 }  // namespace
 
@@ -118,7 +120,7 @@ Furniture::Furniture(const Studio& studio, double aspect)
       survey_(studio.survey),
       palette_(studio.palette),
       title_(survey_.field.title(survey_.units)) {
-  double title = 0, labels = 0;
+  double title = 0, labels = 0, kinds = 0;
   if (!survey_.field.is_none()) {
     constexpr double size = 100;  // any: widths in em are asked for
     const auto measure = [&](const std::string& label) {
@@ -128,29 +130,43 @@ Furniture::Furniture(const Studio& studio, double aspect)
     if (survey_.categories.empty()) ticks = bar_ticks(survey_, 12 * size, small * size, false);
     for (const auto& tick : ticks.major) measure(tick.label);
     title = plot::set_text(with_factor(title_, ticks), size).width / size;
-    for (const auto kind : survey_.categories) measure(kind_label(kind));
+    for (const auto& label : kind_labels())
+      measure(label),
+          kinds += plot::set_text(label, small * size).width / size + patch + patch_gap + kind_gap;
   }
-  places_ = arrange(style_, survey_, aspect, title, labels);
+  places_ = arrange(style_, survey_, aspect, {title, labels, kinds});
   if (places_.has_plot)
     plot_.emplace(survey_.series, survey_.units, style_.background, places_.plot, places_.em);
 }
 
-/// A patch of each kind's colour with its number: from the top of the bar's place, or from its left end.
+std::vector<std::string> Furniture::kind_labels() const {
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < survey_.categories.size(); ++i)
+    labels.push_back(survey_.kind_names.empty() ? fmt::format("${}$", survey_.categories[i])
+                                                : escaped(survey_.kind_names[i]));
+  if (survey_.other_kinds) labels.emplace_back("others");
+  return labels;
+}
+
+/// A patch of each kind's colour with its name or number: from the top of the bar's place downwards, or in rows from its left end.
 void Furniture::draw_kinds(DisplayList& list) const {
   const double em = places_.em, size = small * em;
   const bool upright = places_.upright_bar;
-  const auto count = static_cast<double>(survey_.categories.size());
-  const double step =
-      std::min(upright ? 1.7 * em : 3.2 * em, (upright ? places_.bar.height() : places_.bar.width()) / count);
+  const auto labels = kind_labels();
+  const double step = std::min(1.7 * em, places_.bar.height() / static_cast<double>(labels.size()));
+  const double side = upright ? std::min(patch * em, 0.8 * step) : patch * em;
   Point corner{places_.bar.left, places_.bar.top};
-  for (std::size_t i = 0; i < survey_.categories.size(); ++i) {
-    const double side = std::min(0.85 * em, 0.8 * step);
-    const Rgb c = studio_.kind_color(static_cast<std::ptrdiff_t>(i));
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const auto text = plot::set_text(labels[i], size);
+    const double width = side + patch_gap * em + text.width;
+    if (!upright && corner.x() > places_.bar.left && corner.x() + width > places_.bar.right)
+      corner = {places_.bar.left, corner.y() + kind_line * em};
+    const Rgb c =
+        i < survey_.categories.size() ? studio_.kind_color(static_cast<std::ptrdiff_t>(i)) : palette_.quiet;
     list.fill(Path().rectangle({corner.x(), corner.y(), corner.x() + side, corner.y() + side}),
               {c.r, c.g, c.b, 1});
-    plot::draw_text(list, plot::set_text(kind_label(survey_.categories[i]), size),
-                    corner + Point(side + 0.45 * em, 0.5 * side + 0.33 * size), ink());
-    corner += upright ? Point(0, step) : Point(step, 0);
+    plot::draw_text(list, text, corner + Point(side + patch_gap * em, 0.5 * side + 0.33 * size), ink());
+    corner += upright ? Point(0, step) : Point(width + kind_gap * em, 0);
   }
   plot::draw_text(list, plot::set_text(title_, em), places_.title, ink());
 }

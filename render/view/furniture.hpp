@@ -54,6 +54,8 @@ class Furniture {
 
   void draw_bar(plot::DisplayList& list) const;
   void draw_kinds(plot::DisplayList& list) const;
+  /// Text of each kind, and of what has no colour of its own.
+  std::vector<std::string> kind_labels() const;
   ScaleBar kept_inside(ScaleBar scale) const;
   void draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
   void draw_key(plot::DisplayList& list, double arrow_pixels) const;

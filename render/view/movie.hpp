@@ -7,18 +7,18 @@
 
 namespace chute::view {
 
-/// A film that ffmpeg makes of pictures as they come: H.264 (.mp4), GIF (.gif) or animated PNG (.png). It
+/// A film that ffmpeg makes of pictures as they come: H.264 (.mp4), VP9 (.webm), ProRes (.mov), GIF (.gif) or animated PNG (.png). It
 /// appears whole when finish() returns; if it is not finished, nothing is left.
 class Movie {
  public:
-  enum class Kind { h264, gif, apng };
+  enum class Kind { h264, vp9, prores, gif, apng };
   /// InputError if the extension says none of them.
   static Kind kind_of(const std::filesystem::path& path);
 
   /// `ground` shows through where pictures are transparent and the format knows no transparency. A GIF needs
-  /// the palette that a PalettePicker made. WorkError if ffmpeg cannot be started.
+  /// the palette that a PalettePicker made. `transparent`: pictures are, and ProRes keeps that. WorkError if ffmpeg cannot be started.
   Movie(const std::filesystem::path& path, int width, int height, double frames_per_second, Rgb ground,
-        const std::filesystem::path& palette = {});
+        const std::filesystem::path& palette = {}, bool transparent = false);
   ~Movie();
 
   /// WorkError with what ffmpeg says if it has given up or complained, or if the file is not whole.

@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "common/fields.hpp"
-#include "plot/style.hpp"
 
 namespace chute::view {
 namespace {
@@ -46,10 +45,8 @@ std::vector<Rgb> Studio::colors(const read::GrainFrame& frame) const {
 }
 
 Rgb Studio::kind_color(std::ptrdiff_t kind) const {
-  const auto& colors =
-      plot::look_of(style.background == Background::dark ? plot::Style::dark : plot::Style::journal).colors;
-  const auto& c = colors[static_cast<std::size_t>(kind) % colors.size()];
-  const Rgb color{c.r, c.g, c.b};
+  const auto& colors = kind_colors(style.background);
+  const Rgb color = colors[static_cast<std::size_t>(kind) % colors.size()];
   return style.chains ? mix(color, palette.ground, faded_by_chains) : color;
 }
 
@@ -81,10 +78,7 @@ Trail trails(const FrameData& data) {
       } else if (earlier.size() != frame.size()) {
         break;
       }
-      Eigen::Vector3d there = earlier.centre(j);
-      for (int c = 0; c < 3; ++c)
-        if (const double period = frame.period(c); period > 0)
-          there[c] += period * std::round((here[c] - there[c]) / period);
+      const Eigen::Vector3d there = here + frame.shortest(earlier.centre(j) - here);
       trail.paths[i].push_back(there);
       here = there;
     }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
-constexpr int drawing_version = 4;
+constexpr int drawing_version = 5;
 constexpr const char* drawn_from = "Drawn-From";
 
 /// Adds a part such that where it ends matters.
@@ -92,8 +93,8 @@ class FrameDrawer {
       : job_(job), frames_(frames), survey_(survey), beside_(beside), wanted_(wanted_arrays(job.style)) {
     Hash common;
     add_part(common, beside.hash);
-    add_part(common, fmt::format("drawing {} {} {} radius {}", drawing_version, job.style.describe(),
-                                 survey.describe(), job.radius.value_or(0)));
+    add_part(common, fmt::format("drawing {} {} {} {}", drawing_version, job.style.describe(),
+                                 survey.describe(), job.meanings.describe()));
     const auto add = [&](const std::vector<double>& values) {
       add_part(common, {reinterpret_cast<const char*>(values.data()), sizeof(double) * values.size()});
     };
@@ -131,7 +132,7 @@ class FrameDrawer {
     }
 
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
-    const auto frame = read::parse_frame(std::move(files), job_.radius, wanted_);
+    const auto frame = read::parse_frame(std::move(files), job_.meanings, wanted_);
     const auto links =
         network.empty() ? std::vector<read::ForceLink>() : read::parse_network(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
@@ -177,7 +178,7 @@ class FrameDrawer {
     Hash hash;
     for (const auto& part : files) add_part(hash, part.bytes);
     earlier_.push_back(
-        {read::parse_frame(std::move(files), job_.radius, {std::string(fields::id.name)}), hash.hex()});
+        {read::parse_frame(std::move(files), job_.meanings, {std::string(fields::id.name)}), hash.hex()});
     while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64)
       earlier_.pop_front(), ++first_earlier_;
   }
@@ -206,9 +207,39 @@ void check_dimensions(const FrameStyle& style, const Survey& survey) {
     if (option.given)
       throw InputError(fmt::format("{} does nothing here: these grains lie in {}", option.name,
                                    flat ? "a plane" : "space"));
+  if (flat && style.up && style.up->head<2>().isZero(0))
+    throw InputError("--up along z does nothing here: these grains lie in a plane");
   for (const Cut& cut : style.cuts)
     if (flat && cut.axis == 2)
       throw InputError("--cut along z does nothing here: these grains lie in a plane");
+}
+
+/// How time in the movie goes against the time of the frames: "a second of the movie is 0.2 s: 5 times slower than true".
+std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& numbers, double rate) {
+  if (!survey.has_times || numbers.size() < 2) return "";
+  const auto step = [&](std::size_t i) { return survey.times[numbers[i + 1]] - survey.times[numbers[i]]; };
+  double least = step(0), most = step(0);
+  for (std::size_t i = 1; i + 1 < numbers.size(); ++i)
+    least = std::min(least, step(i)), most = std::max(most, step(i));
+  const double mean = (survey.times[numbers.back()] - survey.times[numbers.front()]) /
+                      static_cast<double>(numbers.size() - 1);
+  const double second = mean * rate;
+  if (!(second > 0) || !std::isfinite(second)) return "";
+  std::string text = fmt::format("a second of the movie is {:.3g}", second);
+  if (!survey.clock.empty()) {
+    text += " " + survey.clock;
+  } else if (survey.units == "SI") {
+    constexpr double same = 0.005;  // relative: told as true
+    text += std::abs(second - 1) < same ? " s: as fast as true"
+            : second < 1                ? fmt::format(" s: {:.3g} times slower than true", 1 / second)
+                                        : fmt::format(" s: {:.3g} times faster than true", second);
+  } else {
+    text += survey.units == "reduced" ? " sqrt(d/g)" : " in the files' unit of time";
+  }
+  constexpr double even = 0.01;  // of the mean: what rounded times differ by
+  if (most - least > even * mean)
+    text += fmt::format("; frames are {:.3g} to {:.3g} apart and shown equally long", least, most);
+  return text;
 }
 
 }  // namespace
@@ -231,7 +262,8 @@ RenderReport render_run(const RenderJob& job) {
     throw InputError(fmt::format("{} frames per second: must be in (0, 1000]", job.frames_per_second));
   if (job.jobs < 1 || job.jobs > 1024)
     throw InputError(fmt::format("{} jobs: must be in [1, 1024]", job.jobs));
-  if (job.radius && !(*job.radius > 0)) throw InputError(fmt::format("radius {}: must be > 0", *job.radius));
+  if (const auto& r = job.meanings.radius; r && !(*r > 0))
+    throw InputError(fmt::format("radius {}: must be > 0", *r));
   const bool is_gif = !job.movie.empty() && Movie::kind_of(job.movie) == Movie::Kind::gif;
 
   const auto frames = read::find_frames(job.source);
@@ -247,7 +279,7 @@ RenderReport render_run(const RenderJob& job) {
   TimeSeries series;
   if (!job.plot.empty())
     series = read_time_series(job.series.empty() ? job.source / "series.csv" : job.series, job.plot);
-  Survey found = survey(frames, job.style, job.radius, job.jobs,
+  Survey found = survey(frames, job.style, job.meanings, job.jobs,
                         [&](std::size_t done) { tell("reading", done, frames.size()); });
   if (!series.empty() && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
@@ -269,6 +301,14 @@ RenderReport render_run(const RenderJob& job) {
 
   RenderReport report;
   report.left_out = found.left_out;
+  if (!job.style.camera.window && !job.style.camera.follow)
+    report.outside = found.outside, report.about = found.about;
+  for (const auto& frame : frames)
+    if (frame.piece && !frame.piece->cut_after.empty())
+      report.notes.push_back(frame.piece->cut_after + "; that frame is left out");
+  if (!job.movie.empty())
+    if (auto note = movie_clock(found, numbers, job.frames_per_second); !note.empty())
+      report.notes.push_back(std::move(note));
   const auto& style = job.style;
   const auto draw = [&](const std::vector<std::size_t>& which, bool wanted, const Take& take) {
     draw_all(
@@ -308,7 +348,7 @@ RenderReport render_run(const RenderJob& job) {
   const auto stride = is_gif ? static_cast<std::size_t>(std::ceil(job.frames_per_second / fastest_gif - 1e-9))
                              : std::size_t{1};
   Movie movie(job.movie, style.width, style.height, job.frames_per_second / static_cast<double>(stride),
-              ground, palette ? palette->file() : fs::path());
+              ground, palette ? palette->file() : fs::path(), style.background == Background::transparent);
   draw(numbers, true, [&](std::size_t i, bool drawn, const image::Image& picture) {
     if (i % stride == 0)
       movie.add(picture);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "read/meanings.hpp"
 #include "view/frame_style.hpp"
 
 namespace chute::view {
@@ -22,11 +23,11 @@ struct RenderJob {
   std::filesystem::path source;  ///< see read::find_frames
   FrameStyle style;
   std::filesystem::path output;  ///< folder for NNNNNN.png; empty: no pictures are kept
-  std::filesystem::path movie;   ///< .mp4, .gif or .png; empty: none
+  std::filesystem::path movie;   ///< .mp4, .webm, .mov, .gif or .png; empty: none
   double frames_per_second = 25;
   FrameRange frames;
   int jobs = 1;                   ///< processes that draw at once
-  std::optional<double> radius;   ///< for files without radii
+  read::Meanings meanings;        ///< what arrays of other programs' files are
   std::vector<std::string> plot;  ///< columns of `series` that are plotted against time beside the grains
   std::filesystem::path series;   ///< empty: the run's series.csv
   /// Hears what is being done ("reading", "drawing"), how much of it is done and how much there is.
@@ -35,9 +36,12 @@ struct RenderJob {
 
 struct RenderReport {
   std::size_t drawn = 0;
-  std::size_t kept = 0;      ///< pictures that were there already, drawn from the same
-  std::size_t skipped = 0;   ///< frames that a GIF of more than 50 a second leaves out
-  std::size_t left_out = 0;  ///< grains of all frames together that have no place or no size
+  std::size_t kept = 0;            ///< pictures that were there already, drawn from the same
+  std::size_t skipped = 0;         ///< frames that a GIF of more than 50 a second leaves out
+  std::size_t left_out = 0;        ///< grains of all frames together that have no place or no size
+  std::size_t outside = 0;         ///< grains of all frames together that the view does not show
+  bool about = false;              ///< that number was estimated
+  std::vector<std::string> notes;  ///< one line each: what was not read, how fast the movie is
 };
 
 /// Draws a run: looks at all frames once for what must not change (colour range, camera), then draws those

@@ -28,19 +28,22 @@ class SolidPainter : public Painter {
       : studio_(studio), scene_(studio.style.width, studio.style.height, look_of(studio)) {
     const auto& survey = studio_.survey;
     const auto& camera = studio_.style.camera;
-    normal_ = Vector3d::Unit(survey.up_axis);
-    // the direction from which x points to the right
-    const Vector3d side = survey.up_axis == 2 ? Vector3d(0, -1, 0) : Vector3d(0, 0, 1);
+    normal_ = survey.up;
+    // the direction from which x points to the right, or y if x is up
+    const Vector3d along = survey.up_axis == 0 ? Vector3d::UnitY() : Vector3d::UnitX();
+    const Vector3d right = (along - along.dot(normal_) * normal_).normalized(), side = right.cross(normal_);
     const double strength = survey.gravity.norm();
     const Vector3d down = strength > 0 ? Vector3d(survey.gravity / strength) : Vector3d(Vector3d::Zero());
     const double azimuth = camera.azimuth * std::numbers::pi / 180,
                  elevation = camera.elevation * std::numbers::pi / 180;
-    const Vector3d towards =
-        std::cos(elevation) * (std::sin(azimuth) * Vector3d::UnitX() + std::cos(azimuth) * side) +
-        std::sin(elevation) * normal_;
+    const Vector3d towards = std::cos(elevation) * (std::sin(azimuth) * right + std::cos(azimuth) * side) +
+                             std::sin(elevation) * normal_;
     const auto axes = Eye::axes_of(towards, studio_.style.tilt && strength > 0 ? Vector3d(-down) : normal_);
 
     box_ = survey.bounds;
+    if (const auto& lattice = survey.lattice; lattice && studio_.style.box)  // it is to be seen whole
+      for (int corner = 0; corner < 8; ++corner)
+        box_.extend(lattice->origin + lattice->edges * Vector3d(corner & 1, corner >> 1 & 1, corner >> 2));
     if (copies()) box_.min().x() -= copy_reach * period(), box_.max().x() += copy_reach * period();
     furniture = std::make_unique<Furniture>(studio_, Eye::aspect(box_, axes));
     eye_ = Eye::on_box(box_, axes, furniture->places().scene, camera.zoom);
@@ -51,7 +54,7 @@ class SolidPainter : public Painter {
     for (int c = 0; c < 3; ++c) directions.axes.col(c) = eye_.seen_direction(Vector3d::Unit(c));
     ScaleBar scale = scale_bar(furniture->places().em);
     shown_ = furniture->places().scene;
-    if (overflows() && !(shown_.contains(scale.from) && shown_.contains(scale.to))) scale.to = scale.from;
+    if (goes_near() && !(shown_.contains(scale.from) && shown_.contains(scale.to))) scale.to = scale.from;
     furniture->stand(scale, directions, studio_.arrow_length() * eye_.focal / eye_.distance);
   }
 
@@ -91,7 +94,8 @@ class SolidPainter : public Painter {
   double pixel() const { return eye_.distance / eye_.focal; }
 
   /// Grains may lie beyond the scene's place, and would run under the texts beside it.
-  bool overflows() const { return studio_.style.camera.zoom > 1 || studio_.style.camera.follow; }
+  bool goes_near() const { return studio_.style.camera.zoom > 1 || studio_.style.camera.follow; }
+  bool overflows() const { return goes_near() || studio_.survey.cropped; }
   void keep_inside(image::Image& picture) const {
     const auto& p = studio_.palette;
     const auto byte = [&](double v) {
@@ -107,12 +111,14 @@ class SolidPainter : public Painter {
   /// Along a lower edge of the box that is near to the eye, a little outside: lengths are true there. Of the
   /// two, the one that is seen less from its end.
   ScaleBar scale_bar(double em) const {
-    const int n = studio_.survey.up_axis, side = 3 - n;
+    const int n = studio_.survey.up_axis, first = n == 0 ? 1 : 0, side = 3 - n - first;
     ScaleBar best;
     double largest = 0;  // pixels per unit
-    for (const int along : {0, side}) {
-      const int other = along == 0 ? side : 0;
-      Vector3d a = box_.min(), b = box_.min();
+    for (const int along : {first, side}) {
+      const int other = along == first ? side : first;
+      Vector3d a = box_.min();
+      if (studio_.survey.up[n] < 0) a[n] = box_.max()[n];
+      Vector3d b = a;
       const double outside = 0.9 * studio_.survey.diameter;
       a[other] = b[other] =
           eye_.towards()[other] > 0 ? box_.max()[other] + outside : box_.min()[other] - outside;
@@ -230,8 +236,18 @@ class SolidPainter : public Painter {
   }
   double line_width() const { return std::max(1.2, 0.0011 * studio_.style.width); }
 
-  /// The edges of the box in which the run is periodic, and of all grains along the other axes.
+  /// The edges of the box that the file tells; else of that in which the run is periodic, and of all grains along the other axes.
   void add_box() {
+    if (const auto& lattice = studio_.survey.lattice) {
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vector3d steps(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+        const Vector3d from = lattice->origin + lattice->edges * steps;
+        for (int edge = 0; edge < 3; ++edge)
+          if (steps[edge] == 0)
+            add_line(from, from + lattice->edges.col(edge), line_width(), studio_.palette.quiet);
+      }
+      return;
+    }
     Eigen::AlignedBox3d box = studio_.survey.bounds;
     for (int c = 0; c < 3; ++c)
       if (studio_.survey.domain.sizes()[c] > 0)

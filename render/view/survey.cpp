@@ -11,7 +11,6 @@
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
-#include "plot/style.hpp"
 #include "read/grain_frame.hpp"
 #include "read/network.hpp"
 
@@ -19,7 +18,7 @@ namespace chute::view {
 namespace {
 
 /// More different values than this are numbers to be ordered, not kinds to be told apart by colour.
-constexpr std::size_t most_kinds = plot::color_count;
+constexpr std::size_t most_kinds = kind_color_count;
 
 /// Rounds away from zero to a plain number, a tenth larger on average: the ends of a colour bar should be
 /// readable.
@@ -87,42 +86,126 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
     plane_ = frame.z.front();
     s.dimensions = frame.dimensions;
     s.units = frame.units, s.clock = frame.clock, s.domain = frame.domain, s.gravity = frame.gravity;
+    s.lattice = frame.lattice;
     s.field = find_field(style_.color, frame);
     const auto& g = s.gravity;
     s.up_axis = s.dimensions == 2 || std::abs(g[1]) > std::abs(g[2]) ? 1 : 2;
     const double down = -g[static_cast<std::size_t>(s.up_axis)];
     if (down > 0) s.slope = std::atan2(g[0], down);
+    s.turn = style_.tilt ? -s.slope : 0;
+    if (style_.up && style_.up->head<2>().norm() > 0)
+      s.turn = std::numbers::pi / 2 - std::atan2(style_.up->y(), style_.up->x());
   }
   // a plane that moves from frame to frame is a layer in space
   s.dimensions = std::max(s.dimensions, frame.z.front() == plane_ ? frame.dimensions : 3);
 
-  const Eigen::Rotation2Dd turn(style_.tilt ? -s.slope : 0);
+  const Eigen::Rotation2Dd turn(s.turn);
   const double period = style_.copies ? s.domain.sizes().x() : 0;
-  const auto shifts = period > 0 ? std::vector<double>{0, -period, period} : std::vector<double>{0};
   const auto values = s.field.values(frame);
   const auto* velocity = frame.find(fields::velocity.name);
   bool any_moving = false, any_fixed = false;
   for (std::size_t i = 0; i < frame.size(); ++i) {
     const double r = frame.radius[i];
     const Eigen::Vector3d centre = frame.centre(i);
-    s.bounds.extend((centre.array() - r).matrix()).extend((centre.array() + r).matrix());
-    for (const double shift : shifts) {
-      if (shift != 0 && beyond_domain(s.domain, centre.x() + shift) >= 1) continue;
-      const Eigen::Vector2d seen = turn * Eigen::Vector2d(centre.x() + shift, centre.y());
-      s.turned.extend((seen.array() - r).matrix()).extend((seen.array() + r).matrix());
-    }
+    if (period > 0)
+      for (const double shift : {0.0, -period, period}) {
+        if (shift != 0 && beyond_domain(s.domain, centre.x() + shift) >= 1) continue;
+        const Eigen::Vector2d seen = turn * Eigen::Vector2d(centre.x() + shift, centre.y());
+        copies_.extend((seen.array() - r).matrix()).extend((seen.array() + r).matrix());
+      }
     const bool fixed = frame.is_fixed(i);
     (fixed ? any_fixed : any_moving) = true;
+    extent_.add(centre, r, fixed);
     ++all_, all_diameters_ += 2 * r;
     if (fixed) continue;
     ++moving_, diameters_ += 2 * r;
     values_.add(values[i]);
-    if (s.field.names_kinds() && kinds_.size() <= most_kinds) kinds_.insert(std::llround(values[i]));
     if (velocity && velocity->components == 3)
       speeds_.add(std::hypot(velocity->at(i, 0), velocity->at(i, 1), velocity->at(i, 2)));
   }
+  if (s.field.kinds) see_kinds(frame, values);
   s.has_fixed = s.has_fixed || (any_fixed && any_moving);
   if (style_.camera.follow) path_.see(frame, style_.camera.follow->id, s.times.back());
+}
+
+void Surveyor::see_kinds(const read::GrainFrame& frame, const std::vector<double>& values) {
+  const auto* array = frame.find(found_.field.array);
+  const auto* names = frame.find("species");
+  const bool named = names && names != array && !names->words.empty();
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    if (frame.is_fixed(i)) continue;
+    if (array && !array->words.empty()) {
+      if (const double word = array->at(i); std::isfinite(word))
+        ++words_[array->words[static_cast<std::size_t>(word)]];
+    } else if (std::isfinite(values[i]) && kinds_.size() <= most_kinds) {
+      const auto kind = std::llround(values[i]);
+      kinds_.insert(kind);
+      if (named && std::isfinite(names->at(i)))
+        kind_names_.emplace(kind, names->words[static_cast<std::size_t>(names->at(i))]);
+    }
+  }
+}
+
+void Surveyor::choose_kinds() {
+  auto& s = found_;
+  if (!words_.empty()) {
+    std::vector<std::pair<std::size_t, std::string>> often;
+    for (const auto& [word, count] : words_) often.emplace_back(count, word);
+    s.other_kinds = often.size() > most_kinds;
+    if (s.other_kinds) {  // the most frequent ones, and of those that are as frequent the first by name
+      std::stable_sort(often.begin(), often.end(),
+                       [](const auto& a, const auto& b) { return a.first > b.first; });
+      often.resize(most_kinds);
+    }
+    for (auto& [count, word] : often) s.field.words.push_back(std::move(word));
+    std::sort(s.field.words.begin(), s.field.words.end());
+    for (std::size_t i = 0; i < s.field.words.size(); ++i) s.categories.push_back(static_cast<long long>(i));
+    s.kind_names = s.field.words;
+  } else if (!kinds_.empty() && kinds_.size() <= most_kinds) {
+    s.categories.assign(kinds_.begin(), kinds_.end());
+    if (!kind_names_.empty())
+      for (const auto kind : s.categories)
+        s.kind_names.push_back(kind_names_.contains(kind) ? kind_names_[kind] : std::to_string(kind));
+  }
+  if (style_.species.empty()) return;
+  if (s.categories.empty())
+    throw InputError(
+        "species: the grains are not coloured by kinds that could have names; --color type does that");
+  if (style_.species.size() != s.categories.size())
+    throw InputError(fmt::format("species: {} name{}, but there are {} kinds: {}", style_.species.size(),
+                                 style_.species.size() == 1 ? "" : "s", s.categories.size(),
+                                 s.kind_names.empty() ? fmt::format("{}", fmt::join(s.categories, ", "))
+                                                      : fmt::format("{}", fmt::join(s.kind_names, ", "))));
+  s.kind_names = style_.species;
+}
+
+void Surveyor::choose_up() {
+  auto& s = found_;
+  if (s.dimensions == 3 && s.up_axis == 1 && std::abs(s.gravity[1]) <= std::abs(s.gravity[2])) s.up_axis = 2;
+  if (s.dimensions == 3 && s.gravity.isZero(0) && extent_.thinnest() >= 0) s.up_axis = extent_.thinnest();
+  s.up = Eigen::Vector3d::Unit(s.up_axis);
+  if (!s.gravity.isZero(0) && s.gravity[s.up_axis] > 0) s.up = -s.up;
+  if (!style_.up) return;
+  s.up = style_.up->normalized();
+  Eigen::Index axis = 0;
+  s.up.cwiseAbs().maxCoeff(&axis);
+  s.up_axis = static_cast<int>(axis);
+}
+
+void Surveyor::choose_view() {
+  auto& s = found_;
+  const bool all = style_.camera.all || style_.copies;
+  auto view = extent_.view(s.up_axis, Eigen::Matrix3d::Identity(), 0, all);
+  s.bounds = view.box;
+  if (s.dimensions == 2) {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(s.turn).toRotationMatrix();
+    if (s.turn == 0) turn.setIdentity();
+    view = extent_.view(1, turn, static_cast<double>(style_.width) / style_.height, all);
+    s.turned = {view.box.min().head<2>(), view.box.max().head<2>()};
+    if (!copies_.isEmpty()) s.turned = copies_;
+  }
+  s.outside = view.outside, s.about = view.about, s.cropped = view.cropped;
 }
 
 void Surveyor::choose_range() {
@@ -152,9 +235,10 @@ void Surveyor::choose_range() {
 Survey Surveyor::finish() {
   if (first_) throw InputError(found_.times.empty() ? "no frames to draw" : "no frame has a grain");
   auto& s = found_;
-  if (s.dimensions == 3 && s.up_axis == 1 && std::abs(s.gravity[1]) <= std::abs(s.gravity[2])) s.up_axis = 2;
+  choose_up();
+  choose_view();
   choose_range();
-  if (!kinds_.empty() && kinds_.size() <= most_kinds) s.categories.assign(kinds_.begin(), kinds_.end());
+  choose_kinds();
   if (style_.camera.follow) s.path = path_.smooth();
   s.diameter =
       moving_ ? diameters_ / static_cast<double>(moving_) : all_diameters_ / static_cast<double>(all_);
@@ -169,36 +253,41 @@ std::string Survey::describe() const {
     return fmt::format("{},", fmt::join(v.begin(), v.end(), ","));
   };
   return fmt::format(
-      "{} {} {} bounds={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
-      "diameter={} speed={} force={} fixed={:d} decimals={} times={:d} categories={}",
-      dimensions, up_axis, slope, text(bounds.min()) + text(bounds.max()),
-      text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity),
-      units + clock, field.array, static_cast<int>(field.part), field.component, low, high, diverging,
-      exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times,
-      fmt::join(categories, ","));
+             "{} {} {} {} bounds={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
+             "diameter={} speed={} force={} fixed={:d} decimals={} times={:d} categories={}",
+             dimensions, text(up), slope, turn, text(bounds.min()) + text(bounds.max()),
+             text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity),
+             units + clock, field.array, static_cast<int>(field.part), field.component, low, high, diverging,
+             exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times,
+             fmt::join(categories, ",")) +
+         fmt::format(" kinds={}|{}", fmt::join(kind_names, "|"), fmt::join(field.words, "|")) +
+         (lattice ? fmt::format(" lattice={}{}", text(lattice->origin), text(lattice->edges.reshaped()))
+                  : "");
 }
 
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
-              std::optional<double> radius, int jobs, const std::function<void(std::size_t)>& tell) {
+              const read::Meanings& meanings, int jobs, const std::function<void(std::size_t)>& tell) {
   std::vector<std::string> wanted{color_array(style.color), std::string(fields::velocity.name)};
   if (style.camera.follow) wanted.emplace_back(fields::id.name);
   struct Seen {
     read::GrainFrame frame;
     std::vector<read::ForceLink> links;
   };
-  const auto read = [&](std::size_t i) {
+  const auto understand = [&](std::size_t i, std::vector<read::FileBytes> files) {
     const bool chains = style.chains && !frames[i].contacts.empty();
-    return Seen{read::parse_frame(read::read_files(frames[i]), radius, wanted),
+    return Seen{read::parse_frame(std::move(files), meanings, wanted),
                 chains ? read::read_network(frames[i].contacts) : std::vector<read::ForceLink>()};
   };
   Surveyor surveyor(style);
   // The first alone: VTK makes its tables then, which is not for threads. Later ones are read ahead.
   std::deque<std::future<Seen>> ahead;
   for (std::size_t i = 0, next = 1; i < frames.size(); ++i) {
-    const Seen seen = i == 0 ? read(0) : ahead.front().get();
+    const Seen seen = i == 0 ? understand(0, read::read_files(frames[0])) : ahead.front().get();
     if (i > 0) ahead.pop_front();
     for (; next < frames.size() && next <= i + static_cast<std::size_t>(jobs); ++next)
-      ahead.push_back(std::async(jobs > 1 ? std::launch::async : std::launch::deferred, read, next));
+      // Bytes are read one frame after the other: places in a packed file are reached in order.
+      ahead.push_back(std::async(jobs > 1 ? std::launch::async : std::launch::deferred, understand, next,
+                                 read::read_files(frames[next])));
     surveyor.see(seen.frame, frames[i].time);
     for (const auto& link : seen.links) surveyor.see_force(link.force);
     if (tell) tell(i + 1);

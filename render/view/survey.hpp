@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "read/run_frames.hpp"
 #include "view/color_field.hpp"
+#include "view/extent.hpp"
 #include "view/frame_style.hpp"
 #include "view/path.hpp"
 #include "view/time_series.hpp"
@@ -18,12 +20,20 @@ namespace chute::view {
 /// next.
 struct Survey {
   int dimensions = 2;
-  int up_axis = 1;   ///< the incline's normal: 1 (y) in the plane, else where gravity points most, or z
-  double slope = 0;  ///< radians: gravity is turned that much from the normal, towards +x
-  Eigen::AlignedBox3d bounds;  ///< of all grains, radii included, in the files' frame
-  Eigen::AlignedBox2d turned;  ///< 2D: the same as seen in the picture (turned by the slope if tilted;
-                               ///< periodic copies included if they are drawn)
+  /// Upwards, of length 1: as the style says; else the incline's normal, which is y in the plane, else against the axis along
+  /// which gravity points most, or where nobody says along that by which grains spread least by far; else z.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+  int up_axis = 1;             ///< the axis nearest to it
+  double slope = 0;            ///< radians: gravity is turned that much from the normal, towards +x
+  double turn = 0;             ///< 2D, radians: by which the picture is turned
+  Eigen::AlignedBox3d bounds;  ///< what is to be seen, radii included, in the files' frame; see Extent
+  Eigen::AlignedBox2d
+      turned;  ///< 2D: the same as seen in the picture (periodic copies included if they are drawn)
+  std::size_t outside = 0;  ///< moving grains of all frames whose centres lie outside of it
+  bool about = false;       ///< that number was estimated
+  bool cropped = false;     ///< grains or parts of the bed lie outside
   Eigen::AlignedBox3d domain{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< as in GrainFrame
+  std::optional<read::Lattice> lattice;                                          ///< of the first frame
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::string units, clock;  ///< as in read::GrainFrame
   ColorField field;
@@ -31,6 +41,8 @@ struct Survey {
   double low = 0, high = 1;                        ///< colour range
   bool exceeds_low = false, exceeds_high = false;  ///< some values lie outside
   std::vector<long long> categories;               ///< all values of a field that only names kinds, rising
+  std::vector<std::string> kind_names;             ///< of `categories`, where names are known
+  bool other_kinds = false;                        ///< there are more words than colours: these have none
   double diameter = 1;                             ///< mean of the moving grains (of all, if none moves)
   double speed = 0;                                ///< nearly the largest, for the length of arrows
   double force = 0;           ///< nearly the largest contact force, for the width of chains
@@ -55,7 +67,7 @@ double beyond_domain(const Eigen::AlignedBox3d& domain, double x);
 /// Reads every frame once, `jobs` at a time. `tell` hears how many are done. InputError as read_frame; also if
 /// the field is missing.
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
-              std::optional<double> radius = {}, int jobs = 1,
+              const read::Meanings& meanings = {}, int jobs = 1,
               const std::function<void(std::size_t)>& tell = {});
 
 /// Collects frames that are already in memory; what survey() is made of.
@@ -83,9 +95,17 @@ class Surveyor {
   double plane_ = 0;  ///< z of the first grain that was seen
   Sample values_, speeds_, forces_;
   std::set<long long> kinds_;
+  std::map<std::string, std::size_t> words_;     ///< of a field of words: how many grains of each
+  std::map<long long, std::string> kind_names_;  ///< that the file gives beside a number
+  Extent extent_;
+  Eigen::AlignedBox2d copies_;  ///< as seen in the picture
   PathFinder path_;
   double diameters_ = 0, all_diameters_ = 0;
   std::size_t moving_ = 0, all_ = 0;
+  void see_kinds(const read::GrainFrame& frame, const std::vector<double>& values);
+  void choose_kinds();
+  void choose_up();
+  void choose_view();
   void choose_range();
 };
 

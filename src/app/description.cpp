@@ -10,8 +10,9 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "read/points_file.hpp"
 #include "read/table.hpp"
-#include "read/vtk_points.hpp"
+#include "read/text_frames.hpp"
 #include "run/flow.hpp"
 
 namespace chute::app {
@@ -32,7 +33,10 @@ Json range_of(const std::vector<double>& values) {
 std::string unit_of(const std::string& name, const std::string& units) {
   const auto look = [&](const auto& known) -> std::string {
     for (const auto& field : known)
-      if (field.name == name) return std::string(units == "SI" ? field.si_unit : field.reduced);
+      if (field.name == name)
+        return std::string(units == "SI"        ? field.si_unit
+                           : units == "reduced" ? field.reduced
+                                                : std::string_view());
     return "";
   };
   for (const auto& unit :
@@ -41,8 +45,8 @@ std::string unit_of(const std::string& name, const std::string& units) {
   return "";
 }
 
-Json of_vtk(const fs::path& path) {
-  const auto points = read::parse_vtk(read::read_parts(path));
+/// What a set of points holds; what comes before `points` is said by the caller.
+void add_points(Json& into, const read::PointSet& points) {
   std::string units;
   Json texts = Json::object();
   for (const auto& [name, text] : points.field_texts) {
@@ -51,23 +55,50 @@ Json of_vtk(const fs::path& path) {
   }
   Json arrays = Json::array();
   const auto add = [&](const char* where, const std::vector<read::PointArray>& found) {
-    for (const auto& array : found)
-      arrays.push_back({{"where", where},
-                        {"name", array.name},
-                        {"components", array.components},
-                        {"range", range_of(array.values)},
-                        {"unit", unit_of(array.name, units)}});
+    for (const auto& array : found) {
+      Json entry{{"where", where},
+                 {"name", array.name},
+                 {"components", array.components},
+                 {"range", range_of(array.values)},
+                 {"unit", unit_of(array.name, units)}};
+      if (!array.words.empty()) entry["range"] = Json(), entry["words"] = array.words;
+      arrays.push_back(std::move(entry));
+    }
   };
   add("point", points.point_arrays), add("cell", points.cell_arrays), add("field", points.field_arrays);
-  return {{"kind", "vtk"},
-          {"file", path.string()},
-          {"points", points.x.size()},
-          {"cells", points.cells.size()},
-          {"x", range_of(points.x)},
-          {"y", range_of(points.y)},
-          {"z", range_of(points.z)},
-          {"arrays", arrays},
-          {"texts", texts}};
+  into["points"] = points.x.size(), into["cells"] = points.cells.size();
+  into["x"] = range_of(points.x), into["y"] = range_of(points.y), into["z"] = range_of(points.z);
+  into["arrays"] = std::move(arrays), into["texts"] = std::move(texts);
+  if (!points.lattice) return;
+  const auto& box = *points.lattice;
+  const auto list = [](const auto& values) {
+    return Json(std::vector<double>(values.begin(), values.end()));
+  };
+  into["box"] = {
+      {"origin", list(box.origin)},
+      {"edges", Json::array({list(box.edges.col(0)), list(box.edges.col(1)), list(box.edges.col(2))})},
+      {"periodic", box.periodic}};
+}
+
+Json of_vtk(const fs::path& path) {
+  Json found{{"kind", "vtk"}, {"file", path.string()}};
+  add_points(found, read::parse_points(read::read_parts(path)));
+  return found;
+}
+
+/// A dump or an XYZ file: how many frames, their times, and what the first holds.
+Json of_text_frames(const fs::path& path, read::PointSet::Format format) {
+  const auto pieces = read::find_pieces(path);
+  Json found{{"kind", format == read::PointSet::Format::dump ? "dump" : "xyz"},
+             {"file", path.string()},
+             {"frames", pieces.size()}};
+  std::vector<double> times;
+  for (const auto& piece : pieces)
+    if (piece.time) times.push_back(*piece.time);
+  found["time"] = range_of(times);
+  found["cut_after"] = pieces.back().cut_after.empty() ? Json() : Json(pieces.back().cut_after);
+  add_points(found, read::parse_points(read::read_parts(path)));
+  return found;
 }
 
 Json of_table(const fs::path& path) {
@@ -124,10 +155,11 @@ Json describe_file(const fs::path& path) {
   const auto extension = path.extension();
   if (fs::is_directory(path)) return of_run(path);
   if (extension == ".csv") return of_table(path);
+  if (const auto format = read::text_format_of(path)) return of_text_frames(path, *format);
   constexpr std::array point_files{".vtp", ".vtu", ".vtk", ".pvtp", ".pvtu", ".vtm"};
   if (std::find(point_files.begin(), point_files.end(), extension) != point_files.end()) return of_vtk(path);
-  throw InputError(fmt::format("{}: neither a run directory nor a {} or .csv file", path.string(),
-                               fmt::join(point_files, ", ")));
+  throw InputError(fmt::format("{}: neither a run directory nor a {} or .csv file, a dump or an XYZ file",
+                               path.string(), fmt::join(point_files, ", ")));
 }
 
 }  // namespace chute::app

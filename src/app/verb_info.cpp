@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -24,18 +25,41 @@ std::string span_text(const Json& range) {
 
 std::string text_of(const Json& value) { return value.get<std::string>(); }
 
-void show_vtk(const Json& file) {
+std::string vector_text(const Json& values) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", values[0].get<double>(), values[1].get<double>(),
+                     values[2].get<double>());
+}
+
+void show_points(const Json& file) {
+  if (file.contains("frames")) {
+    fmt::print("{}: {} frame{}, {} {}; of the first:\n", text_of(file["file"]),
+               file["frames"].get<std::size_t>(), file["frames"] == 1 ? "" : "s",
+               file["texts"].contains("clock") ? text_of(file["texts"]["clock"]) : "time",
+               span_text(file["time"]));
+    if (file["cut_after"].is_string()) fmt::print("  left out at the end: {}\n", text_of(file["cut_after"]));
+  }
   fmt::print("{}: {} points, {} lines and polygons\n", text_of(file["file"]),
              file["points"].get<std::size_t>(), file["cells"].get<std::size_t>());
   fmt::print("  place  x {}   y {}   z {}\n", span_text(file["x"]), span_text(file["y"]),
              span_text(file["z"]));
   for (const auto& array : file["arrays"]) {
     const int components = array["components"];
+    const auto values =
+        array.contains("words")
+            ? fmt::format("{}", fmt::join(array["words"].get<std::vector<std::string>>(), ", "))
+            : span_text(array["range"]);
     fmt::print("  {:<6} {:<18} {} component{}  {} {}\n", text_of(array["where"]), text_of(array["name"]),
-               components, components == 1 ? " " : "s", span_text(array["range"]), text_of(array["unit"]));
+               components, components == 1 ? " " : "s", values, text_of(array["unit"]));
   }
   for (const auto& [name, text] : file["texts"].items())
     fmt::print("  field  {:<18} {}\n", name, text_of(text));
+  if (!file.contains("box")) return;
+  const auto& box = file["box"];
+  fmt::print("  box    from {}", vector_text(box["origin"]));
+  for (std::size_t edge = 0; edge < 3; ++edge)
+    fmt::print("{} {}{}", edge ? "," : ", edges", vector_text(box["edges"][edge]),
+               box["periodic"][edge].get<bool>() ? " periodic" : "");
+  fmt::print("\n");
 }
 
 /// Type, range and gaps of a column.
@@ -110,19 +134,21 @@ void info(const fs::path& path, bool json) {
   const auto kind = text_of(found["kind"]);
   if (kind == "run") show_run(found, path);
   if (kind == "table") show_table(found);
-  if (kind == "vtk") show_vtk(found);
+  if (kind == "vtk" || kind == "dump" || kind == "xyz") show_points(found);
 }
 
 }  // namespace
 
 void add_info(CLI::App& app) {
-  auto* verb = app.add_subcommand("info", "Tell what a run, a VTK file or a table holds");
+  auto* verb =
+      app.add_subcommand("info", "Tell what a run, a VTK file, a dump, an XYZ file or a table holds");
   struct Arguments {
     std::string path;
     bool json = false, verify = false;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_option("path", a->path, "run directory, VTK file or CSV table")->required();
+  verb->add_option("path", a->path, "run directory, VTK file, dump of LAMMPS, XYZ file or CSV table")
+      ->required();
   auto* json = verb->add_flag("--json", a->json, "for programs: keys as in README.md");
   verb->add_flag("--verify", a->verify, "compare every file of a run with the checksums in its run.json")
       ->excludes(json);

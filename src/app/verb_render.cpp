@@ -20,12 +20,13 @@ namespace chute::app {
 namespace {
 
 struct RenderArguments {
-  std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series;
+  std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series, up;
+  std::string radius, diameter, velocity, spin, orientation, type, id;
+  std::vector<std::string> species;
   std::vector<std::string> plot;
   double fps = 25;
   int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int trails = 0;
-  double radius = 0;
   std::vector<std::string> cuts;
   bool tilt = false, arrows = false, chains = false, copies = false, impacts = false, occlusion = false,
        outlines = false, floor = false, box = false, no_spin = false, bare = false, quiet = false;
@@ -50,6 +51,10 @@ bool read_follow(const std::string& text, view::Camera& camera) {
 }
 
 void read_camera(const std::string& text, view::Camera& camera) {
+  if (text == "all") {
+    camera.all = true;
+    return;
+  }
   if (const auto comma = text.find(','); comma != std::string::npos) {
     read_camera(text.substr(0, comma), camera), read_camera(text.substr(comma + 1), camera);
     return;
@@ -57,7 +62,7 @@ void read_camera(const std::string& text, view::Camera& camera) {
   if (read_follow(text, camera)) return;
   constexpr const char* expected =
       "X0:X1:Y0:Y1 (the part of a plane that is shown), AZIMUTH:ELEVATION[:ZOOM] (degrees, in space), "
-      "follow[:ID|mean], or one of the first two and the last with a comma between";
+      "all, follow[:ID|mean], or one of the first two and the last with a comma between";
   const auto values = numbers("--camera", text, ':', expected);
   require(values.size() >= 2 && values.size() <= 4 && all_given(values), "--camera", text, expected);
   if (values.size() == 4) {
@@ -66,6 +71,34 @@ void read_camera(const std::string& text, view::Camera& camera) {
     camera.azimuth = values[0], camera.elevation = values[1];
     if (values.size() == 3) camera.zoom = values[2];
   }
+}
+
+/// `z`, `-y`, `0.2:0:1`.
+Eigen::Vector3d read_up(const std::string& text) {
+  constexpr const char* expected = "x, y, z, -x, -y, -z or X:Y:Z";
+  const std::string_view axis = std::string_view(text).substr(text.starts_with('-') ? 1 : 0);
+  if (const auto k = std::string_view("xyz").find(axis); axis.size() == 1 && k != std::string_view::npos)
+    return (text.starts_with('-') ? -1.0 : 1.0) * Eigen::Vector3d::Unit(static_cast<int>(k));
+  const auto values = numbers("--up", text, ':', expected);
+  require(values.size() == 3 && all_given(values), "--up", text, expected);
+  return {values[0], values[1], values[2]};
+}
+
+/// A number is the same for all grains, anything else the name of an array.
+void read_size_of_grains(const std::string& option, const std::string& text, double per_radius,
+                         read::Meanings& meanings, std::string& array) {
+  if (text.empty()) return;
+  if (meanings.radius || !meanings.radius_array.empty() || !meanings.diameter_array.empty())
+    throw InputError("--radius and --diameter: one of them says how large grains are");
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) {
+    array = text;
+    return;
+  }
+  require(value > 0 && std::isfinite(value), option, text, "a number > 0, or the name of an array");
+  meanings.radius = value / per_radius;
 }
 
 /// `x>3`, `z<0.5`: what lies there is cut away.
@@ -123,7 +156,13 @@ view::RenderJob job_of(const RenderArguments& a) {
   style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
   job.movie = a.movie, job.output = a.output;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
-  if (a.radius != 0) job.radius = a.radius;
+  auto& meanings = job.meanings;
+  read_size_of_grains("--radius", a.radius, 1, meanings, meanings.radius_array);
+  read_size_of_grains("--diameter", a.diameter, 2, meanings, meanings.diameter_array);
+  meanings.velocity = a.velocity, meanings.spin = a.spin, meanings.orientation = a.orientation;
+  meanings.type = a.type, meanings.id = a.id;
+  style.species = a.species;
+  if (!a.up.empty()) style.up = read_up(a.up);
   if (a.bare && !a.plot.empty())
     throw InputError("--bare draws the grains alone, --plot a curve beside them");
   if (!a.series.empty() && a.plot.empty()) throw InputError("--series: say with --plot which of its columns");
@@ -152,6 +191,10 @@ void render(const RenderArguments& a) {
   if (report.left_out > 0)
     tell("render: left out {} grain{} (of all frames) without a place or a radius > 0\n", report.left_out,
          report.left_out == 1 ? "" : "s");
+  if (report.outside > 0)
+    tell("render: {}{} grain{} (of all frames) out of view; --camera all shows every one\n",
+         report.about ? "about " : "", report.outside, report.outside == 1 ? "" : "s");
+  for (const auto& note : report.notes) tell("render: {}\n", note);
   if (report.skipped > 0)
     tell("render: the movie leaves out {} frames: a GIF shows 50 a second at most\n", report.skipped);
   const auto kept = report.kept ? fmt::format(", {} were there", report.kept) : "";
@@ -167,23 +210,29 @@ void add_render(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
   verb->add_option(
           "run", a->run,
-          "run directory; or VTK files of grains or of cells (.vti), chute's or another engine's: a directory, a time index "
-          "(.pvd), one file, or a pattern in quotes")
+          "run directory; or VTK files of grains or of cells (.vti), dumps of LAMMPS or XYZ files (also .gz, .zst), chute's or "
+          "another engine's: a directory, a time index (.pvd), one file, or a pattern in quotes")
       ->required();
   verb->add_option("-o,--output", a->output,
                    "folder for NNNNNN.png; default RUN/pictures, none with --movie");
-  verb->add_option("--movie", a->movie, "make a movie: .mp4 (H.264), .gif or .png (animated); needs ffmpeg");
+  verb->add_option(
+      "--movie", a->movie,
+      "make a movie: .mp4 (H.264), .webm (VP9), .mov (ProRes), .gif or .png (animated); needs ffmpeg");
   verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
   verb->add_option("--color", a->color,
                    "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "
-                   "default the speed");
+                   "default the speed, else the species");
   verb->add_option("--range", a->range, "colour range LOW:HIGH; default from the whole run");
   verb->add_option("--colormap", a->map, "viridis, batlow, cividis, rdbu, or one of them with _r, reversed");
   verb->add_option("--size", a->size, "pixels, WIDTHxHEIGHT; default 1920x1080");
   verb->add_option("--frames", a->frames, "one frame, or FIRST:END:STEP with END not included");
-  verb->add_option("--camera", a->camera,
-                   "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all. Also, or "
-                   "after a comma, follow[:ID|mean]: it goes along with a grain or the mean");
+  verb->add_option(
+      "--camera", a->camera,
+      "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows nearly all grains, all every "
+      "one. Also, or after a comma, follow[:ID|mean]: it goes along with a grain or the mean");
+  verb->add_option(
+      "--up", a->up,
+      "which way is up, x, y, z, -x …, or X:Y:Z; default against gravity, else across the thinnest spread of grains in space");
   verb->add_option("--background", a->background, "white, dark or transparent")->capture_default_str();
   verb->add_flag("--tilt", a->tilt, "turn the picture so that gravity points down");
   verb->add_flag("--arrows", a->arrows, "velocity arrows");
@@ -207,7 +256,17 @@ void add_render(CLI::App& app) {
   verb->add_option("--series", a->series, "another table for --plot, with a column time");
   verb->add_flag("--no-spin", a->no_spin, "no marks that turn with the grains");
   verb->add_flag("--bare", a->bare, "the grains alone: no colour bar, time, scale and gravity");
-  verb->add_option("--radius", a->radius, "radius of all grains, for files without");
+  verb->add_option("--radius", a->radius, "array of the radii, or one number for all grains");
+  verb->add_option("--diameter", a->diameter, "array of the diameters, or one number for all grains");
+  verb->add_option("--velocity", a->velocity, "array of the velocities, or its components U,V[,W]");
+  verb->add_option("--spin", a->spin, "array of the angular velocities");
+  verb->add_option("--orientation", a->orientation,
+                   "array of angles (plane) or quaternions w x y z (space), which the marks show");
+  verb->add_option("--type", a->type, "array of the species");
+  verb->add_option("--id", a->id, "array of the grains' numbers, for trails and --camera follow");
+  verb->add_option("--species", a->species,
+                   "names of the species, in the order of their numbers: glass,steel")
+      ->delimiter(',');
   verb->add_option("-j,--jobs", a->jobs, "processes that draw at once; the pictures are the same")
       ->capture_default_str();
   verb->add_flag("--quiet", a->quiet, "no progress");
