@@ -171,7 +171,8 @@ void TomlReader::fail(std::string_view key, const std::string& message) const {
 }
 
 void TomlReader::missing(std::string_view key) const {
-  find_slip();
+  // A file's tables are read one after the other: those still to come are not unknown, whatever they resemble.
+  if (!prefix_.empty()) find_slip();
   fail(key, "missing, but required");
 }
 

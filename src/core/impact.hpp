@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/wrong_state.hpp"
 #include "core/vec.hpp"
 
 namespace chute {
@@ -112,7 +113,9 @@ class TouchLog {
 
   template <class Archive>
   void serialize(Archive& a) {
+    const auto grains = grains_.size();
     a(grains_);
+    if (grains_.size() != grains) wrong_state();
   }
 
  private:

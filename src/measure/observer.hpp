@@ -1,5 +1,4 @@
 #pragma once
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/map.hpp>
 #include <cereal/types/string.hpp>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "common/keys.hpp"
+#include "common/state_archive.hpp"
 #include "core/engine.hpp"
 #include "core/frame.hpp"
 #include "core/offers.hpp"
@@ -78,20 +78,16 @@ class Observer {
   virtual bool wants_avalanches(std::int64_t) const { return false; }
   /// Writes its files as of now. Averages from "steady" on count from `flow.from`.
   virtual void write(const Flow& flow) const = 0;
-  virtual void save(cereal::PortableBinaryOutputArchive& archive) = 0;
-  virtual void load(cereal::PortableBinaryInputArchive& archive) = 0;
+  virtual void save(StateOutput& archive) = 0;
+  virtual void load(StateInput& archive) = 0;
 };
 
 /// Gives an observer save and load out of its serialize(archive).
 template <class Self>
 class Remembering : public Observer {
  public:
-  void save(cereal::PortableBinaryOutputArchive& archive) override {
-    static_cast<Self&>(*this).serialize(archive);
-  }
-  void load(cereal::PortableBinaryInputArchive& archive) override {
-    static_cast<Self&>(*this).serialize(archive);
-  }
+  void save(StateOutput& archive) override { static_cast<Self&>(*this).serialize(archive); }
+  void load(StateInput& archive) override { static_cast<Self&>(*this).serialize(archive); }
 };
 
 /// What an observer asks of the engine.

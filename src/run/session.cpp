@@ -6,6 +6,7 @@
 #include <cereal/types/string.hpp>
 #include <cmath>
 
+#include "common/state_archive.hpp"
 #include "run/version.hpp"
 #include "scene/world.hpp"
 
@@ -90,14 +91,14 @@ void Session::write() const {
 
 void Session::save(std::ostream& out) const {
   engine_->save(out);
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   for (const auto& observer : observers_) observer->save(archive);
   if (run_.files) archive(*run_.files);
 }
 
 void Session::load(std::istream& in) {
   engine_->restore(in);
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   for (const auto& observer : observers_) observer->load(archive);
   if (run_.files) archive(*run_.files);
   prepare();

@@ -35,7 +35,7 @@ LatticeGasSetup gas_of(int columns, int rows, double density, bool periodic_y) {
 
 std::string bytes_of(LatticeGas& gas) {
   std::ostringstream out;
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   gas.save(archive);
   return out.str();
 }
@@ -174,7 +174,7 @@ TEST_CASE("threads and a restart change no byte") {
   const auto half = bytes_of(one);
   CHECK(half == bytes_of(three));
   std::istringstream in(half);
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   late.load(archive);
   for (int t = 50; t < 90; ++t) one.update(t), late.update(t);
   CHECK(bytes_of(one) == bytes_of(late));

@@ -96,11 +96,11 @@ TEST_CASE("a pile goes on from a checkpoint to the same slopes") {
   auto pile = settled(50, 5000);
   std::stringstream state;
   {
-    cereal::PortableBinaryOutputArchive out(state);
+    StateOutput out(state);
     pile.save(out);
   }
   auto other = settled(50, 1);
-  cereal::PortableBinaryInputArchive in(state);
+  StateInput in(state);
   other.load(in);
   for (int t = 5000; t < 6000; ++t) pile.update(t), other.update(t);
   for (std::size_t i = 0; i < 50; ++i) CHECK(pile.slope(i) == other.slope(i));

@@ -104,10 +104,10 @@ TEST_CASE("voids go on from a checkpoint to the same grains") {
   for (int t = 0; t < 500; ++t) a.update(t);
   std::stringstream state;
   {
-    cereal::PortableBinaryOutputArchive out(state);
+    StateOutput out(state);
     a.save(out);
   }
-  cereal::PortableBinaryInputArchive in(state);
+  StateInput in(state);
   b.load(in);
   for (int t = 500; t < 900; ++t) a.update(t), b.update(t);
   for (int y = 0; y < 40; ++y)

@@ -55,11 +55,11 @@ class Drift final : public Engine {
     return {{"drifted", dt_ * static_cast<double>(step_)}};
   }
   void save(std::ostream& out) const override {
-    cereal::PortableBinaryOutputArchive archive(out);
+    StateOutput archive(out);
     archive(step_, world_.grains);
   }
   void restore(std::istream& in) override {
-    cereal::PortableBinaryInputArchive archive(in);
+    StateInput archive(in);
     archive(step_, world_.grains);
   }
 

@@ -35,13 +35,13 @@ EnergyAccount AutomatonEngine::energy() const {
 }
 
 void AutomatonEngine::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   archive(step_, start_);
   model_->save(archive);
 }
 
 void AutomatonEngine::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   archive(step_, start_);
   model_->load(archive);
   shown_ = -1;

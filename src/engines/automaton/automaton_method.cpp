@@ -36,7 +36,7 @@ Lattice lattice_of(const World<2>& world, const engines::Setting& setting) {
     throw InputError(
         fmt::format("domain.size: {} rows do not repeat, their number must be even", lattice.rows));
   if (lattice.sites() > (std::size_t{1} << 31)) throw InputError("domain.size: more than 2^31 sites");
-  for (const auto& wall : world.walls) return lattice;
+  return lattice;
 }
 
 }  // namespace

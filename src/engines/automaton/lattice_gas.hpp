@@ -44,7 +44,7 @@ class LatticeGas final : public SavedModel<LatticeGas> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(now_, lost_, crossed_);
+    archive(kept(now_), lost_, crossed_);
   }
 
  private:

@@ -1,10 +1,10 @@
 #pragma once
-#include <cereal/archives/portable_binary.hpp>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/state_archive.hpp"
 #include "core/avalanche.hpp"
 #include "core/grains.hpp"
 
@@ -26,20 +26,16 @@ class Model {
   };
   virtual Energy energy() const { return {}; }
   virtual std::vector<Avalanche> take_avalanches() { return {}; }
-  virtual void save(cereal::PortableBinaryOutputArchive& archive) = 0;
-  virtual void load(cereal::PortableBinaryInputArchive& archive) = 0;
+  virtual void save(StateOutput& archive) = 0;
+  virtual void load(StateInput& archive) = 0;
 };
 
 /// Gives a model save and load out of its serialize(archive).
 template <class Self>
 class SavedModel : public Model {
  public:
-  void save(cereal::PortableBinaryOutputArchive& archive) override {
-    static_cast<Self&>(*this).serialize(archive);
-  }
-  void load(cereal::PortableBinaryInputArchive& archive) override {
-    static_cast<Self&>(*this).serialize(archive);
-  }
+  void save(StateOutput& archive) override { static_cast<Self&>(*this).serialize(archive); }
+  void load(StateInput& archive) override { static_cast<Self&>(*this).serialize(archive); }
 };
 
 }  // namespace chute::automaton

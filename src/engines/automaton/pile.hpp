@@ -33,7 +33,7 @@ class Pile final : public SavedModel<Pile> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(sites_, drawn_, topplings_, last_);
+    archive(kept(sites_), kept(drawn_), topplings_, last_);
   }
 
  private:

@@ -38,7 +38,7 @@ class Voids final : public SavedModel<Voids> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(kind_, band_, left_, right_, updates_, out_, in_);
+    archive(kept(kind_), kept(band_), kept(left_), kept(right_), updates_, out_, in_);
   }
 
  private:

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
 
 namespace chute::contact {
@@ -316,20 +316,24 @@ EnergyAccount ContactEngine<D>::energy() const {
 template <int D>
 template <class Archive, class Self>
 void ContactEngine<D>::transfer(Archive& archive, Self& self) {
-  archive(self.grains_, self.touching_, self.touches_, self.start_place_, self.account_, self.record_,
-          self.step_, self.deepest_);
+  archive(kept(self.grains_), self.touching_, self.touches_, kept(self.start_place_), self.account_,
+          self.record_, self.step_, self.deepest_);
 }
 
 template <int D>
 void ContactEngine<D>::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   transfer(archive, *this);
 }
 
 template <int D>
 void ContactEngine<D>::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   transfer(archive, *this);
+  for (const auto& t : touching_) {
+    must_name(std::array{t.i}, grains_.size());
+    must_name(std::array{t.j}, grains_.size() + setup_.walls.size());
+  }
   show();
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 #include "engines/dsmc/hard_gas.hpp"
 
 namespace chute::dsmc {
@@ -232,15 +232,15 @@ void transfer(Archive& archive, T& tally) {
 
 template <int D>
 void DsmcEngine<D>::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   archive(grains_, cells_, step_, stopped_, start_energy_, start_potential_);
   transfer(archive, tally_);
 }
 
 template <int D>
 void DsmcEngine<D>::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
-  archive(grains_, cells_, step_, stopped_, start_energy_, start_potential_);
+  StateInput archive(in);
+  archive(kept(grains_), cells_, step_, stopped_, start_energy_, start_potential_);
   transfer(archive, tally_);
 }
 

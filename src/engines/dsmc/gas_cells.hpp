@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "common/wrong_state.hpp"
 #include "core/team.hpp"
 #include "engines/dsmc/dsmc_setup.hpp"
 #include "engines/dsmc/obstacles.hpp"
@@ -97,6 +98,12 @@ class GasCells {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(many_, phi_, settled_);
+    std::size_t cells = 1;
+    for (const auto many : many_) {
+      if (many < 1 || static_cast<std::size_t>(many) > phi_.size()) wrong_state();
+      cells *= static_cast<std::size_t>(many);
+    }
+    if (cells != phi_.size()) wrong_state();
     if (volume_.size() != phi_.size()) volume_.clear(), add_volumes();
   }
 

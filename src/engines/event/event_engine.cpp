@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 #include "engines/hard/first_contact.hpp"
 #include "engines/hard/thermal_wall.hpp"
 #include "engines/hard/wall_flight.hpp"
@@ -442,18 +442,18 @@ void EventEngine<D>::transfer(Archive& archive, Self& self) {
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
     archive(self.outlook_[i].burst_begin, self.outlook_[i].burst_collisions);
   }
-  archive(self.start_place_, self.meetings_, self.touches_, self.account_, self.now_, self.step_);
+  archive(kept(self.start_place_), self.meetings_, self.touches_, self.account_, self.now_, self.step_);
 }
 
 template <int D>
 void EventEngine<D>::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   transfer(archive, *this);
 }
 
 template <int D>
 void EventEngine<D>::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   transfer(archive, *this);
   show();
   lay_out();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/wrong_state.hpp"
 #include "core/impact.hpp"
 
 namespace chute::hard {
@@ -59,7 +60,9 @@ class Meetings {
 
   template <class Archive>
   void serialize(Archive& a) {
+    const auto grains = of_.size();
     a(of_);
+    if (of_.size() != grains) wrong_state();
   }
 
  private:

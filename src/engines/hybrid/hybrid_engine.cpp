@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
 
 namespace chute::hybrid {
@@ -285,19 +285,19 @@ void HybridEngine<D>::transfer(Archive& archive, Self& self) {
     auto& f = self.flights_[i];
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
   }
-  archive(self.start_place_, self.meetings_, self.touches_, self.account_, self.step_, self.hits_,
+  archive(kept(self.start_place_), self.meetings_, self.touches_, self.account_, self.step_, self.hits_,
           self.put_off_, self.deepest_);
 }
 
 template <int D>
 void HybridEngine<D>::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   transfer(archive, *this);
 }
 
 template <int D>
 void HybridEngine<D>::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   transfer(archive, *this);
   show();
 }

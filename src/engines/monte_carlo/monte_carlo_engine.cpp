@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <numeric>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 #include "core/kernel.hpp"
 #include "engines/kind/packing.hpp"
 
@@ -326,14 +326,14 @@ std::vector<std::pair<std::string, double>> MonteCarloEngine<D>::tells() const {
 
 template <int D>
 void MonteCarloEngine<D>::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   archive(step_, sweeps_, accepted_, tried_, delta_, grains_, extent_);
 }
 
 template <int D>
 void MonteCarloEngine<D>::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
-  archive(step_, sweeps_, accepted_, tried_, delta_, grains_, extent_);
+  StateInput archive(in);
+  archive(step_, sweeps_, accepted_, tried_, delta_, kept(grains_), extent_);
   slots_.fill(grains_, setup_.domain, extent_);
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <numeric>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 #include "engines/kind/packing.hpp"
 #include "engines/monte_carlo/monte_carlo_engine.hpp"
 
@@ -205,14 +205,16 @@ std::vector<std::pair<std::string, double>> RestructuringEngine<D>::tells() cons
 
 template <int D>
 void RestructuringEngine<D>::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   archive(step_, events_, grains_, supports_, loosened_);
 }
 
 template <int D>
 void RestructuringEngine<D>::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
-  archive(step_, events_, grains_, supports_, loosened_);
+  StateInput archive(in);
+  archive(step_, events_, kept(grains_), kept(supports_), loosened_);
+  for (const auto& supports : supports_)
+    if (supports.count < 0 || supports.count > D + 1) wrong_state();
 }
 
 template class RestructuringEngine<2>;

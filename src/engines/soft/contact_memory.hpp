@@ -1,8 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "common/wrong_state.hpp"
 #include "engines/soft/contacts.hpp"
 #include "laws/list.hpp"
 
@@ -53,7 +55,13 @@ class ContactMemory {
 
   template <class Archive>
   void serialize(Archive& archive) {
+    const auto columns = columns_.size();
     archive(count_, i_, j_, columns_, normal_);
+    const auto fits = [&](const auto& list) { return list.size() == count_; };
+    if (columns_.size() != columns || !fits(i_) || !fits(j_) || !std::ranges::all_of(columns_, fits) ||
+        !(std::ranges::all_of(normal_, fits) ||
+          std::ranges::all_of(normal_, [](const auto& n) { return n.empty(); })))
+      wrong_state();
   }
 
  private:

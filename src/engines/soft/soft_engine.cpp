@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
@@ -11,6 +10,7 @@
 #include <numeric>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
 
 namespace chute::soft {
@@ -351,22 +351,36 @@ std::vector<Contact> SoftEngine<D>::contacts() const {
 template <int D>
 template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
-  archive(self.order_, self.grains_, self.integrator_.derivatives(), self.start_place_, self.account_,
-          self.sums_.normal_loss, self.sums_.shear_loss, self.step_, self.collecting_, self.touched_,
-          self.touches_, self.stages_.memory(), self.walls_);
+  archive(self.order_, kept(self.grains_), kept(self.integrator_.derivatives()), kept(self.start_place_),
+          self.account_, kept(self.sums_.normal_loss), kept(self.sums_.shear_loss), self.step_,
+          self.collecting_, self.touched_, self.touches_, self.stages_.memory(), self.walls_);
 }
+
+namespace {
+/// Does each of [0, count) stand in it once?
+bool is_order(std::span<const std::int32_t> order, std::size_t count) {
+  std::vector<bool> seen(count, false);
+  for (const auto id : order) {
+    if (id < 0 || static_cast<std::size_t>(id) >= count || seen[static_cast<std::size_t>(id)]) return false;
+    seen[static_cast<std::size_t>(id)] = true;
+  }
+  return order.size() == count;
+}
+}  // namespace
 
 template <int D>
 void SoftEngine<D>::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   transfer(archive, *this);
 }
 
 template <int D>
 void SoftEngine<D>::restore(std::istream& in) {
   back_to_ids();  // for the constants, which are not in the archive
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   transfer(archive, *this);
+  if (!order_.empty() && !is_order(order_, grains_.moving)) wrong_state();
+  for (const auto& [i, j] : touched_) must_name(std::array{i, j}, grains_.size() + walls_.count());
   if (!order_.empty())
     Grains<D>::for_columns(grains_, [&](const GrainField& field, auto& column) {
       if (!field.changes) chute::reorder(column, order_);

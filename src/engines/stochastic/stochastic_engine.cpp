@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/state_archive.hpp"
 
 namespace chute::stochastic {
 namespace {
@@ -128,13 +128,13 @@ EnergyAccount StochasticEngine::energy() const {
 }
 
 void StochasticEngine::save(std::ostream& out) const {
-  cereal::PortableBinaryOutputArchive archive(out);
+  StateOutput archive(out);
   archive(walk_.velocity().c, walk_.trapped(), begin_, end_, place_.c, velocity_.c, draws_, step_,
           gravity_work_, normal_loss_, shear_loss_, start_energy_, touches_);
 }
 
 void StochasticEngine::restore(std::istream& in) {
-  cereal::PortableBinaryInputArchive archive(in);
+  StateInput archive(in);
   Vec<2> velocity;
   bool trapped = false;
   archive(velocity.c, trapped, begin_, end_, place_.c, velocity_.c, draws_, step_, gravity_work_,
