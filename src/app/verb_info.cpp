@@ -1,11 +1,14 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "app/description.hpp"
+#include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/file_lock.hpp"
 #include "io/checkpoint_file.hpp"
 #include "run/flow.hpp"
 #include "run/record.hpp"
@@ -73,14 +76,54 @@ void show_flow(const fs::path& path) {
              flow.from, text(flow.v_x), text(flow.omega));
 }
 
+/// How far a run is that has not finished, and how to go on with it.
+void show_progress(const Json& record, const fs::path& path) {
+  const auto end = record.value("end", "");
+  if (end == "finished" || !record.contains("duration")) return;
+  const double time = record.value("time", 0.0), duration = record.value("duration", 0.0);
+  const auto at = fmt::format("at {} = {:.6g} of {:.6g} ({:.0f} %)", record.value("clock", "time"), time,
+                              duration, duration > 0 ? 100 * time / duration : 0);
+  const bool alive = end == "running" && FolderLock::is_held(path);
+  if (alive) {
+    const double left = record.value("seconds_left", 0.0);
+    fmt::print("running: {}{}; tables and frames.pvd are as of {}\n", at,
+               left > 0 ? fmt::format(", about {} left", duration_text(left)) : "",
+               record.value("written", "the begin"));
+  } else {
+    fmt::print("{}: {}; chute run {} --resume goes on\n", end == "running" ? "was cut off" : end, at,
+               path.string());
+  }
+}
+
 void show_run(const Json& run, const fs::path& path) {
   fmt::print("{}", run::read_record_text(path));
+  show_progress(run["record"], path);
   show_flow(path);
   for (const auto& file : run["files"]) {
     const bool folder = file.contains("files");
     fmt::print("  {:<20} {:>12} {}\n", text_of(file["name"]),
                file[folder ? "files" : "bytes"].get<std::uintmax_t>(), folder ? "files" : "bytes");
   }
+}
+
+void show_sweep(const Json& sweep) {
+  fmt::print("{}: {}\n", text_of(sweep["directory"]), text_of(sweep["title"]));
+  for (const auto& axis : sweep["axes"])
+    fmt::print("  {:<28} {} {}\n", text_of(axis["key"]),
+               fmt::join(axis["values"].get<std::vector<double>>(), ", "), text_of(axis["unit"]));
+  fmt::print("  {:<28} 1 to {}\n", "seed", sweep["seeds"].get<int>());
+  if (sweep.contains("boundary")) {
+    fmt::print("boundaries along {}: {} points so far; ", text_of(sweep["boundary"]),
+               sweep["files"].get<int>());
+  } else {
+    fmt::print("{} of {} points are there; starts:", sweep["found"].get<int>(), sweep["points"].get<int>());
+    for (const auto& [verdict, count] : sweep["starts"].items())
+      if (count.get<int>() > 0) fmt::print(" {} {}", count.get<int>(), verdict);
+    fmt::print("; ");
+  }
+  const bool done = sweep["table"].get<bool>() && sweep.value("found", 0) == sweep.value("points", 0);
+  fmt::print("{}\n", done ? "its tables are there"
+                          : fmt::format("chute sweep {} --resume goes on", text_of(sweep["directory"])));
 }
 
 /// Whether every file of a run holds what the run wrote into it.
@@ -109,6 +152,7 @@ void info(const fs::path& path, bool json) {
   if (json) return fmt::print("{}\n", found.dump(2));
   const auto kind = text_of(found["kind"]);
   if (kind == "run") show_run(found, path);
+  if (kind == "sweep") show_sweep(found);
   if (kind == "table") show_table(found);
   if (kind == "vtk") show_vtk(found);
 }
@@ -122,7 +166,7 @@ void add_info(CLI::App& app) {
     bool json = false, verify = false;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_option("path", a->path, "run directory, VTK file or CSV table")->required();
+  verb->add_option("path", a->path, "run directory, folder of a sweep, VTK file or CSV table")->required();
   auto* json = verb->add_flag("--json", a->json, "for programs: keys as in README.md");
   verb->add_flag("--verify", a->verify, "compare every file of a run with the checksums in its run.json")
       ->excludes(json);

@@ -124,6 +124,8 @@ class Output : public Keys {
   virtual void fill(const Scales&) {}
   /// Shortest time between its looks that steps should divide; infinite if it does not matter.
   virtual double rhythm() const { return std::numeric_limits<double>::infinity(); }
+  /// Keys that a run may change when it goes on, while what was collected stays. Where others change it begins anew.
+  virtual std::vector<std::string> may_change() const { return {}; }
   /// Names in the run directory that it writes, files and folders.
   virtual std::vector<std::string> files() const = 0;
   /// The observers; `wanted` holds.

@@ -20,7 +20,8 @@ std::string_view name(Verdict verdict);
 /// The verdict of that name, or nothing.
 std::optional<Verdict> verdict_named(std::string_view name);
 
-/// Time series of a run, equally long, equally spaced in time.
+/// Time series of a run, equally long. Where rows come in two different intervals, those that lie as far apart as the
+/// longer one are judged.
 struct FlowSeries {
   std::span<const double> time;
   std::span<const double> x;        ///< mean place along the incline, counted on through the periods

@@ -19,8 +19,9 @@ struct RunRecord {
   std::string started = now();
   double seconds = 0;
   std::int64_t steps = 0;
-  double time_step = 0, time = 0;
-  std::string clock = "time";                       ///< what `time` counts
+  double time_step = 0, time = 0, duration = 0;
+  double left = 0;             ///< seconds that it will still take, about, while it is running; 0: not known
+  std::string clock = "time";  ///< what `time` counts
   std::optional<measure::TurningAngles> tilting{};  ///< of an incline that is tilted meanwhile
   std::string end = "running", why{};               ///< `why` is left out if empty
   io::FileSums files{};                             ///< what each file that was written holds
