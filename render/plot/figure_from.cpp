@@ -48,7 +48,7 @@ class Builder {
     Figure figure;
     figure.source = recipe_.source;
     figure.width = recipe_.width, figure.height = recipe_.height, figure.aspect = recipe_.aspect;
-    figure.style = recipe_.style, figure.columns = static_cast<int>(recipe_.columns);
+    figure.style = recipe_.style, figure.changes = recipe_.changes, figure.columns = static_cast<int>(recipe_.columns);
     figure.share_x = recipe_.share_x, figure.share_y = recipe_.share_y, figure.legend = recipe_.legend;
     check_recipe();
     for (const auto& panel : recipe_.panels) figure.panels.push_back(make_panel(panel));
@@ -169,7 +169,10 @@ class Builder {
         if (own->color >= 0) s.color = own->color;
         if (own->marker >= 0) s.marker = own->marker;
         if (own->dash >= 0) s.dash = own->dash;
+        s.ink = own->ink, s.width = own->width, s.size = own->size;
       }
+      if (const auto told = recipe_.labels.find(s.name); !s.label && told != recipe_.labels.end())
+        s.label = told->second;
       drawn.push_back(std::move(s));
     }
     return drawn;

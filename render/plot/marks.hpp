@@ -26,6 +26,13 @@ struct Frame {
 struct SeriesLook {
   Color color;
   int marker = 0, dash = 0;
+  std::optional<double> width{}, size{};  ///< of its line and its markers, where not the style's
+  /// The style as this series has it.
+  Look of(Look look) const {
+    if (width) look.line_width = *width;
+    if (size) look.marker_size = *size;
+    return look;
+  }
 };
 
 /// One legend for all panels: asked for, or the panels show mostly the same series.

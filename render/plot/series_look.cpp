@@ -65,8 +65,9 @@ std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look&
       if (pick.dashed)
         pick.dash = s->dash.value_or(smallest(s->name, [](const Pick& p) { return p.dashed ? p.dash : -1; }));
       picks[s->name] = pick;
-      looks[s->name] = {look.colors[static_cast<std::size_t>(pick.index) % look.colors.size()],
-                        s->marker.value_or(pick.index), pick.dash};
+      looks[s->name] = {
+          s->ink.value_or(look.colors[static_cast<std::size_t>(pick.index) % look.colors.size()]),
+          s->marker.value_or(pick.index), pick.dash, s->width, s->size};
     }
   return looks;
 }

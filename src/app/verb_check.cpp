@@ -21,7 +21,7 @@ namespace {
 struct Checked {
   std::string name, resolved;
   std::vector<Fact> facts;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, chosen{};
 };
 
 Checked check(const std::string& file, const std::vector<std::string>& settings) {
@@ -59,6 +59,7 @@ Checked check(const std::string& file, const std::vector<std::string>& settings)
     const auto scene = scene::parse_scene(input.text, input.name, settings);
     const run::Session refuses_what_a_run_would(scene, 1);
     found.resolved = to_toml(scene), found.facts = run::facts(scene), found.warnings = run::warnings(scene);
+    found.chosen = scene.chosen;
   }
   return found;
 }
@@ -79,6 +80,7 @@ void show(const Checked& found) {
                                                        : fmt::format("{:.6g} {}", fact.value, fact.unit);
     fmt::print("# {:<16} {:<26} {}\n", fact.name, value, fact.meaning);
   }
+  for (const auto& line : found.chosen) fmt::print("# chosen: {}\n", line);
   for (const auto& warning : found.warnings) fmt::print("# warning: {}\n", warning);
 }
 
@@ -92,6 +94,7 @@ nlohmann::ordered_json as_json(const Checked& found) {
   return {{"file", found.name},
           {"scene", nlohmann::ordered_json::parse(scene.str())},
           {"facts", facts},
+          {"chosen", found.chosen},
           {"warnings", found.warnings}};
 }
 

@@ -26,7 +26,7 @@ namespace {
 struct RenderArguments {
   std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series;
   std::vector<std::string> plot;
-  double fps = 25;
+  double fps = 25, speed = 0;
   int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int trails = 0;
   double radius = 0;
@@ -128,6 +128,7 @@ view::RenderJob job_of(const RenderArguments& a) {
   style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
   job.movie = a.movie, job.output = a.output;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
+  job.speed = a.speed;
   if (a.radius != 0) job.radius = a.radius;
   if (a.bare && !a.plot.empty())
     throw InputError("--bare draws the grains alone, --plot a curve beside them");
@@ -214,6 +215,10 @@ void add_render(CLI::App& app) {
                    "folder for NNNNNN.png; default RUN/pictures, none with --movie");
   verb->add_option("--movie", a->movie, "make a movie: .mp4 (H.264), .gif or .png (animated); needs ffmpeg");
   verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
+  verb->add_option("--speed", a->speed,
+                   "simulated time in a second of the movie: 0.25 is slow motion in reduced units; what lies between frames "
+                   "is drawn between them; default a frame a picture")
+      ->check(CLI::PositiveNumber);
   verb->add_option("--color", a->color,
                    "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "
                    "default the speed");

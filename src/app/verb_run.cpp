@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <thread>
 
 #include "app/input.hpp"
@@ -59,6 +60,9 @@ void run(const RunArguments& arguments) {
                          : scene::parse_scene(input.text, input.name, arguments.settings);
   if (!arguments.quiet)
     for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);
+  if (!arguments.quiet)
+    for (const auto& line : scene.chosen)
+      if (line.starts_with("contact.")) tell("chosen: {}\n", line);
   Progress progress("run", arguments.quiet);
   options.progress = [&](double part) {
     progress.show(part);
@@ -77,6 +81,13 @@ void run(const RunArguments& arguments) {
         result.steps, duration_text(result.seconds),
         static_cast<double>(result.steps) * static_cast<double>(result.grains) / result.seconds / 1e6,
         options.directory.string(), options.directory.string());
+  if (const auto& account = result.account) {
+    if (account->poor())
+      tell("warning: the energy account is off by {:.3g} % of what was turned over: do not trust this run; smaller steps "
+           "(engine.steps_per_contact) or softer friction (contact.tangential.viscosity) help\n", 100 * account->part);
+    else if (!arguments.quiet)
+      tell("run: the energy account closes to {:.2g} %: {}\n", 100 * std::abs(account->part), account->word);
+  }
 }
 
 }  // namespace

@@ -169,6 +169,14 @@ std::vector<std::size_t> even_rows(std::span<const double> time) {
   return rows;
 }
 
+/// Length of the record in sqrt(length/g); infinite without gravity, where nothing accelerates by itself.
+double time_units(const FlowSeries& s, const FlowScales& scales) {
+  if (!(scales.gravity > 0)) return INFINITY;
+  return (s.time.back() - s.time.front()) / std::sqrt(scales.length / scales.gravity);
+}
+/// In less, grains that were launched have not even met all of each other.
+constexpr double shortest_record = 20;
+
 }  // namespace
 
 Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
@@ -201,6 +209,7 @@ Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
     return {Verdict::steady, series.time[first], estimate_in_time(record.velocities(first, stretches)),
             estimate_in_time(record.means(series.omega, first, stretches)),
             estimate_in_time(record.means(series.kinetic, first, stretches))};
+  if (time_units(series, scales) < shortest_record) return plain(Verdict::unsettled, late);
   if (runs_away(v)) return plain(Verdict::runaway, late);
   return plain(accelerates(v) ? Verdict::accelerating : Verdict::unsettled, late);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/run_files.hpp"
+#include "measure/account.hpp"
 #include "measure/steadiness.hpp"
 #include "measure/tilting.hpp"
 
@@ -24,6 +25,7 @@ struct RunRecord {
   std::string clock = "time";  ///< what `time` counts
   std::optional<measure::TurningAngles> tilting{};  ///< of an incline that is tilted meanwhile
   std::string end = "running", why{};               ///< `why` is left out if empty
+  std::optional<measure::AccountVerdict> account{};  ///< of the energy
   io::FileSums files{};                             ///< what each file that was written holds
 
   /// This moment in universal time, 2026-01-31T12:00:00Z.

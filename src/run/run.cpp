@@ -55,7 +55,7 @@ class Run {
     if (finished) directory_.finish();
     // A bar on a terminal ends full, however short the run was.
     if (finished && options_.progress) options_.progress(1);
-    return {finished, engine().step() - first, engine().grains().moving, took.count(),
+    return {finished, engine().step() - first, engine().grains().moving, took.count(), account(),
             session_.series().rows() > 0 ? session_.series().starts() : std::vector<measure::Flow>{}};
   }
 
@@ -220,9 +220,15 @@ class Run {
           seconds * static_cast<double>(session_.last_step() - engine().step()) / static_cast<double>(gone);
     const auto& series = session_.series();
     record.tilting = series.turning_angles();
+    record.account = account();
     const auto file = directory_.file("run.json");
     series.rows() > 0 ? write_record(file, record, series.flow(), series.starts())
                       : write_record(file, record);
+  }
+
+  std::optional<measure::AccountVerdict> account() const {
+    const auto& rows = session_.series().series();
+    return rows.empty() ? std::nullopt : measure::judge_account(rows.back().energy);
   }
 
   /// Slices of about a tenth of a second, so that progress and interruption feel prompt.

@@ -1,9 +1,11 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "measure/account.hpp"
 #include "measure/steadiness.hpp"
 #include "run/run_directory.hpp"
 #include "scene/scene.hpp"
@@ -27,6 +29,7 @@ struct RunResult {
   std::int64_t steps;                   ///< done by this call
   std::size_t grains;                   ///< that move
   double seconds;                       ///< wall time of this call
+  std::optional<measure::AccountVerdict> account{};
   std::vector<measure::Flow> starts{};  ///< what became of it, or of each grain that does not feel the others
 };
 
