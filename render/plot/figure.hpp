@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "plot/geometry.hpp"
+
 /// A figure as plain data: what is shown, not where. All texts are in the language of mathtext.hpp. Numbers
 /// are in the units of the axes; NaN means "not known" (an error) or "a gap" (a coordinate).
 namespace chute::plot {
@@ -41,6 +43,8 @@ struct Series {
   bool hollow = false;  ///< its markers are hollow and not joined: points that averages do not vouch for
   // Automatic where absent: counted through the orders of style.hpp
   std::optional<int> color, marker, dash;
+  std::optional<Color> ink;               ///< a colour of its own in place of one of those
+  std::optional<double> width, size;      ///< of its line and its markers, in points
 };
 
 /// A line that is no data: y = x, an axis, a limit.
@@ -124,12 +128,20 @@ struct Panel : Plot {
 
 enum class Legend { automatic, each, common, off };  ///< automatic: common if the panels show the same series
 
+/// What a figure has otherwise than its style, in points.
+struct StyleChanges {
+  std::vector<Color> colors;  ///< of series, in the order in which they come
+  std::optional<Color> ink, paper;
+  std::optional<double> font_size, line_width, marker_size, hairline;
+};
+
 struct Figure {
   double width = 86;             ///< mm
   std::optional<double> height;  ///< mm; from `aspect` where absent
   std::optional<double>
       aspect;  ///< height of a panel's frame over its width; absent: 0.75, less for wide frames
   Style style = Style::journal;
+  StyleChanges changes;
   int columns = 0;                        ///< 0: one up to 100 mm or for one panel, two otherwise
   bool share_x = false, share_y = false;  ///< one range per column / per row; labels only at the outer panels
   bool own_ranges = false;                ///< otherwise panels whose axes have the same label have one range

@@ -51,7 +51,7 @@ class Builder {
     Figure figure;
     figure.source = recipe_.source;
     figure.width = recipe_.width, figure.height = recipe_.height, figure.aspect = recipe_.aspect;
-    figure.style = recipe_.style, figure.columns = static_cast<int>(recipe_.columns);
+    figure.style = recipe_.style, figure.changes = recipe_.changes, figure.columns = static_cast<int>(recipe_.columns);
     figure.share_x = recipe_.share_x, figure.share_y = recipe_.share_y, figure.legend = recipe_.legend;
     figure.own_ranges = recipe_.own_ranges;
     for (const auto& word : recipe_.words) figure.words.emplace_back(word.name, word.label);
@@ -177,7 +177,10 @@ class Builder {
         if (own->color >= 0) s.color = own->color;
         if (own->marker >= 0) s.marker = own->marker;
         if (own->dash >= 0) s.dash = own->dash;
+        s.ink = own->ink, s.width = own->width, s.size = own->size;
       }
+      if (const auto told = recipe_.labels.find(s.name); !s.label && told != recipe_.labels.end())
+        s.label = told->second;
       drawn.push_back(std::move(s));
     }
     return drawn;

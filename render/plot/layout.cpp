@@ -27,7 +27,7 @@ class Layouter {
  public:
   explicit Layouter(const Figure& figure)
       : figure_(figure),
-        look_(look_of(figure.style)),
+        look_(look_of(figure)),
         looks_(assign_looks(figure, look_)),
         sizes_{look_.tick_size, look_.label_size, gap_of(look_)} {
     const int n = static_cast<int>(figure.panels.size());
@@ -62,7 +62,7 @@ class Layouter {
   };
 
   const Figure& figure_;
-  const Look& look_;
+  Look look_;
   std::map<std::string, SeriesLook> looks_;
   TextSizes sizes_;
   int columns_ = 1, rows_ = 1;

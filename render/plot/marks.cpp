@@ -67,7 +67,11 @@ std::vector<Point> outline_of(const Frame& frame, const Series& s) {
 class SeriesPainter {
  public:
   SeriesPainter(Painter& painter, const Frame& frame, const Series& series, const SeriesLook& ink)
-      : p_(painter), frame_(frame), s_(series), ink_(ink) {}
+      : look_(ink.of(painter.look)),
+        p_{painter.list, look_, painter.occupied},
+        frame_(frame),
+        s_(series),
+        ink_(ink) {}
 
   void area() {
     if (s_.kind == Kind::band) band();
@@ -225,7 +229,8 @@ class SeriesPainter {
   }
 
  private:
-  Painter& p_;
+  Look look_;
+  Painter p_;
   const Frame& frame_;
   const Series& s_;
   const SeriesLook& ink_;
@@ -415,8 +420,9 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   for (const auto& reference : plot.references) draw_reference_label(painter, frame, reference);
 }
 
-void draw_sample(DisplayList& list, const Look& look, Kind kind, const SeriesLook& ink, Point at,
+void draw_sample(DisplayList& list, const Look& style, Kind kind, const SeriesLook& ink, Point at,
                  double width) {
+  const Look look = ink.of(style);
   const double middle = at.x() + width / 2, half = 0.32 * look.legend_size;
   if (kind == Kind::bars || kind == Kind::band) {
     Path box;

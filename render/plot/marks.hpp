@@ -31,6 +31,14 @@ struct SeriesLook {
   bool hollow = false;  ///< whatever the marker: points that are not vouched for
 
   MarkerShape shape(double size) const { return marker_shape(marker, size, hollow ? Fill::hollow : fill); }
+
+  std::optional<double> width{}, size{};  ///< of its line and its markers, where not the style's
+  /// The style as this series has it.
+  Look of(Look look) const {
+    if (width) look.line_width = *width;
+    if (size) look.marker_size = *size;
+    return look;
+  }
 };
 
 /// One legend for all panels: asked for, or the panels show mostly the same series.

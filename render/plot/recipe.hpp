@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -6,6 +7,10 @@
 #include "common/toml_reader.hpp"
 #include "plot/figure.hpp"
 #include "read/table.hpp"
+
+namespace chute {
+class KeyLister;
+}
 
 // clang-format off
 /// The plot half of a figure recipe, the table [plot]. Every key, each with its default or an example; all may be
@@ -64,9 +69,16 @@
 ///     kind = "automatic"        # as above, or off: not drawn. Automatic: a line for theory…, exact…, linear…, eq … and
 ///                               # … fit; else what [plot] says; else a line above 80 points, both below
 ///     label = "$e_n=0.8$"       # default made of the name; "" keeps it out of the legend
-///     color = "automatic"       # blue vermillion green purple orange sky yellow black
+///     color = "automatic"       # "#c00000", or blue vermillion green purple orange sky yellow black
 ///     marker = "automatic"      # filled: circle up down block gem; hollow: square diamond ring triangle; cross
 ///     dash = "automatic"        # solid dashed dotted dash-dot long dash-dot-dot
+///     width = 1.1               # of its line, in points; size: of its markers
+///
+///     [style]                   # or style = "FILE.toml" at the top of the recipe, a file with these keys, relative to it
+///     colors = ["#c00000"]      # of series, in the order in which they come
+///     ink = "#000000"           # texts and frames; paper: the ground
+///     font_size = 10            # of labels, in points; the other texts follow
+///     line_width = 1.1          # points; so are marker_size and hairline
 // clang-format on
 namespace chute::plot {
 
@@ -86,6 +98,8 @@ struct SeriesRecipe {
   std::optional<std::string> panel, label;
   KindChoice kind = KindChoice::automatic;
   int color = -1, marker = -1, dash = -1;  ///< -1: automatic
+  std::optional<Color> ink;                ///< color = "#c00000"
+  std::optional<double> width, size;       ///< points
 };
 
 struct InsetRecipe {
@@ -131,6 +145,8 @@ struct PlotRecipe {
   std::optional<double> height;
   std::optional<double> aspect;
   Style style = Style::journal;
+  StyleChanges changes;                       ///< [style] of the recipe; set by whoever reads the file
+  std::map<std::string, std::string> labels;  ///< of series that the recipe gives none; set by whoever has the table
   std::int64_t columns = 0;
   bool share_x = false, share_y = false, own_ranges = false;
   Legend legend = Legend::automatic;
@@ -144,6 +160,10 @@ struct PlotRecipe {
 /// Reads [plot]: `reader.section("plot", recipe)`. Texts are set once here, so that a slip in a label names
 /// its line.
 void describe(TomlReader& a, PlotRecipe& recipe);
+void describe(KeyLister& a, PlotRecipe& recipe);
+/// [style], and a style file.
+void describe(TomlReader& a, StyleChanges& style);
+void describe(KeyLister& a, StyleChanges& style);
 
 /// The figure that the recipe makes of a table with the columns panel,series,x,y and, if there, x_err,y_err.
 /// InputError if a column is missing or no number, the table has no rows, or the recipe names a panel or

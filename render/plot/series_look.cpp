@@ -135,6 +135,8 @@ std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look&
         const auto place = factors->of.find(base_name(s->name));
         auto ink = place == factors->of.end() ? by.alone() : by.of(place->second);
         ink.hollow = s->hollow || is_doubtful(s->name);
+        if (s->ink) ink.color = *s->ink;
+        ink.width = s->width, ink.size = s->size;
         looks.try_emplace(s->name, ink);
       }
       continue;
@@ -155,8 +157,9 @@ std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look&
         pick.dash =
             same ? picks[base].dash
                  : s->dash.value_or(smallest(base, [](const Pick& p) { return p.dashed ? p.dash : -1; }));
-      SeriesLook ink{look.colors[static_cast<std::size_t>(pick.index) % look.colors.size()],
+      SeriesLook ink{s->ink.value_or(look.colors[static_cast<std::size_t>(pick.index) % look.colors.size()]),
                      s->marker.value_or(pick.index), pick.dash};
+      ink.width = s->width, ink.size = s->size;
       if (same && !s->marker) ink.marker = looks.count(base) ? looks[base].marker : ink.marker;
       ink.hollow = s->hollow || is_doubtful(s->name);
       if (doubt && !s->marker) ink.fill = Fill::filled;  // hollow means doubtful there

@@ -87,6 +87,23 @@ MarkerShape marker_shape(int index, double size, Fill fill) {
   return shape;
 }
 
+Look look_of(const Figure& figure) {
+  Look look = look_of(figure.style);
+  const auto& changes = figure.changes;
+  if (!changes.colors.empty()) look.colors = changes.colors;
+  if (changes.ink) look.ink = *changes.ink;
+  if (changes.paper) look.paper = *changes.paper;
+  if (changes.font_size) {
+    const double part = *changes.font_size / look.label_size;
+    for (double* size : {&look.label_size, &look.tick_size, &look.legend_size, &look.panel_size})
+      *size *= part;
+  }
+  if (changes.line_width) look.line_width = *changes.line_width;
+  if (changes.marker_size) look.marker_size = *changes.marker_size;
+  if (changes.hairline) look.hairline = *changes.hairline;
+  return look;
+}
+
 MarkerShape marker_shape(int index, double size) {
   using Paint = MarkerShape::Paint;
   constexpr double quarter = std::numbers::pi / 4, half = std::numbers::pi / 2;

@@ -23,6 +23,8 @@ struct Look {
 };
 
 const Look& look_of(Style style);
+/// The style with the figure's changes.
+Look look_of(const Figure& figure);
 
 /// Clear of ticks: how far legends, panel labels and insets stand from their frame.
 inline constexpr double inset_from_frame = 6;

@@ -15,6 +15,7 @@
 #include "image/png.hpp"
 #include "read/run_frames.hpp"
 #include "read/surroundings.hpp"
+#include "view/between.hpp"
 #include "view/crew.hpp"
 #include "view/frame_renderer.hpp"
 #include "view/movie.hpp"
@@ -77,12 +78,45 @@ struct Beside {
 };
 
 /// The arrays that a frame is drawn from, beside radius and type.
-std::vector<std::string> wanted_arrays(const FrameStyle& style) {
+std::vector<std::string> wanted_arrays(const FrameStyle& style, bool by_id) {
   std::vector<std::string> names{color_array(style.color)};
   if (style.color.empty() || style.arrows) names.emplace_back(fields::velocity.name);
   if (style.spin) names.emplace_back(fields::angle.name), names.emplace_back(fields::orientation.name);
-  if (style.trail || style.impacts) names.emplace_back(fields::id.name);
+  if (style.trail || style.impacts || by_id) names.emplace_back(fields::id.name);
   return names;
+}
+
+/// What one picture shows: a frame, or what lies `part` of the way from it to the next one.
+struct Moment {
+  std::size_t frame;
+  double part = 0;
+};
+
+/// The moments of a film that shows `speed` of simulated time a second, from the first of these frames to the last.
+std::vector<Moment> moments_of(const std::vector<std::size_t>& numbers, const Survey& survey, const RenderJob& job) {
+  std::vector<Moment> moments;
+  if (job.speed == 0) {
+    for (const auto number : numbers) moments.push_back({number});
+    return moments;
+  }
+  const double begin = survey.times[numbers.front()], end = survey.times[numbers.back()];
+  const double between = job.speed / job.frames_per_second;
+  constexpr double most = 1e6;
+  const double count = std::floor((end - begin) / between * (1 + 1e-12)) + 1;
+  if (!(count <= most))
+    throw InputError(fmt::format("speed {}: makes {:.2g} pictures, more than {:.0e}", job.speed, count, most));
+  std::size_t frame = numbers.front();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const double time = std::min(end, begin + static_cast<double>(k) * between);
+    while (frame + 1 < survey.times.size() && survey.times[frame + 1] <= time) ++frame;
+    if (frame >= numbers.back()) {
+      moments.push_back({numbers.back()});
+      continue;
+    }
+    const double length = survey.times[frame + 1] - survey.times[frame];
+    moments.push_back({frame, length > 0 ? (time - survey.times[frame]) / length : 0});
+  }
+  return moments;
 }
 
 /// Draws single frames of a run; one per process.
@@ -90,7 +124,7 @@ class FrameDrawer {
  public:
   FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey,
               const Beside& beside)
-      : job_(job), frames_(frames), survey_(survey), beside_(beside), wanted_(wanted_arrays(job.style)) {
+      : job_(job), frames_(frames), survey_(survey), beside_(beside), wanted_(wanted_arrays(job.style, job.speed > 0)) {
     Hash common;
     add_part(common, beside.hash);
     add_part(common, fmt::format("drawing {} {} {} {}", drawing_version, job.style.describe(),
@@ -103,8 +137,9 @@ class FrameDrawer {
     common_ = common.hex();
   }
 
-  /// True if frame `number` had to be drawn.
-  bool operator()(std::size_t number, bool wanted, image::Image& into) {
+  /// True if it had to be drawn.
+  bool operator()(const Moment& moment, bool wanted, image::Image& into) {
+    const std::size_t number = moment.frame;
     const auto& file = frames_[number];
     const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
     for (std::size_t i = oldest; i < number; ++i) load(i);
@@ -132,18 +167,26 @@ class FrameDrawer {
     }
 
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
-    const auto frame = read::parse_frame(std::move(files), job_.meanings, wanted_);
+    auto frame = read::parse_frame(std::move(files), job_.meanings, wanted_);
+    double time = survey_.times[number];
+    if (moment.part > 0) {
+      frame = between(frame, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_), moment.part);
+      time += moment.part * (survey_.times[number + 1] - time);
+    }
     const auto links =
         network.empty() ? std::vector<read::ForceLink>() : read::parse_network(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
     for (std::size_t i = oldest; i < number; ++i) trail.push_back(&earlier_[i - first_earlier_].frame);
     FrameData data{.frame = frame,
-                   .time = survey_.times[number],
+                   .time = time,
                    .links = links,
                    .earlier = trail,
                    .walls = beside_.walls};
-    data.impacts = std::span(beside_.impacts).first(impacts);
-    if (!survey_.path.empty()) data.focus = survey_.path[number];
+    data.impacts = std::span(beside_.impacts).first(moment.part > 0 ? beside_.until(time) : impacts);
+    if (!survey_.path.empty()) {
+      data.focus = survey_.path[number];
+      if (moment.part > 0) data.focus += moment.part * (survey_.path[number + 1] - survey_.path[number]);
+    }
     const auto& drawn = renderer_->draw(data);
     if (!picture.empty()) {
       const image::Text text{
@@ -209,6 +252,8 @@ void check_dimensions(const FrameStyle& style, const Survey& survey) {
                                    flat ? "a plane" : "space"));
   if (flat && style.up && style.up->head<2>().isZero(0))
     throw InputError("--up along z does nothing here: these grains lie in a plane");
+  if (style.copies && !(survey.domain.sizes()[0] > 0))
+    throw InputError("--copies does nothing here: the frames name no period along x");
   for (const Cut& cut : style.cuts)
     if (flat && cut.axis == 2)
       throw InputError("--cut along z does nothing here: these grains lie in a plane");
@@ -260,6 +305,10 @@ RenderReport render_run(const RenderJob& job) {
     throw InputError("neither a folder for pictures nor a movie is asked for");
   if (!(job.frames_per_second > 0 && job.frames_per_second <= 1000))
     throw InputError(fmt::format("{} frames per second: must be in (0, 1000]", job.frames_per_second));
+  if (job.speed != 0 && !(job.speed > 0 && std::isfinite(job.speed)))
+    throw InputError(fmt::format("speed {}: must be > 0", job.speed));
+  if (job.speed != 0 && (job.movie.empty() || !job.output.empty()))
+    throw InputError("--speed is of a movie; pictures are those of the frames");
   if (job.jobs < 1 || job.jobs > 1024)
     throw InputError(fmt::format("{} jobs: must be in [1, 1024]", job.jobs));
   if (const auto& r = job.meanings.radius; r && !(*r > 0))
@@ -268,6 +317,8 @@ RenderReport render_run(const RenderJob& job) {
 
   const auto frames = read::find_frames(job.source);
   const auto numbers = frame_numbers(job.frames, frames.size());
+  if (are_cells(frames) && job.speed > 0)
+    throw InputError("--speed does nothing here: maps are not drawn between their times");
   if (are_cells(frames)) return render_cells(job, frames, numbers);
   if (job.style.chains &&
       std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
@@ -281,6 +332,9 @@ RenderReport render_run(const RenderJob& job) {
     series = read_time_series(job.series.empty() ? job.source / "series.csv" : job.series, job.plot);
   Survey found = survey(frames, job.style, job.meanings, job.jobs,
                         [&](std::size_t done) { tell("reading", done, frames.size()); });
+  if (job.speed > 0 && !found.has_times)
+    throw InputError(job.source.string() + ": the frames have no times, which --speed needs");
+  const auto moments = moments_of(numbers, found, job);
   if (!series.empty() && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
   found.series = std::move(series);
@@ -310,7 +364,7 @@ RenderReport render_run(const RenderJob& job) {
     if (auto note = movie_clock(found, numbers, job.frames_per_second); !note.empty())
       report.notes.push_back(std::move(note));
   const auto& style = job.style;
-  const auto draw = [&](const std::vector<std::size_t>& which, bool wanted, const Take& take) {
+  const auto draw = [&](const std::vector<Moment>& which, bool wanted, const Take& take) {
     draw_all(
         which.size(), job.jobs, style.width, style.height, wanted,
         [&]() -> Draw {
@@ -323,10 +377,10 @@ RenderReport render_run(const RenderJob& job) {
   };
   const auto count = [&](std::size_t i, bool drawn) {
     ++(drawn ? report.drawn : report.kept);
-    tell("drawing", i + 1, numbers.size());
+    tell("drawing", i + 1, moments.size());
   };
   if (job.movie.empty()) {
-    draw(numbers, false, [&](std::size_t i, bool drawn, const image::Image&) { count(i, drawn); });
+    draw(moments, false, [&](std::size_t i, bool drawn, const image::Image&) { count(i, drawn); });
     flush();
     return report;
   }
@@ -335,10 +389,10 @@ RenderReport render_run(const RenderJob& job) {
   std::unique_ptr<PalettePicker> palette;
   if (is_gif) {  // its colours come from up to a dozen frames, evenly spread
     palette = std::make_unique<PalettePicker>(job.movie, style.width, style.height, ground);
-    std::vector<std::size_t> some;
-    const std::size_t all = numbers.size(), samples = std::min<std::size_t>(all, 12);
+    std::vector<Moment> some;
+    const std::size_t all = moments.size(), samples = std::min<std::size_t>(all, 12);
     for (std::size_t k = 0; k < samples; ++k)
-      some.push_back(numbers[samples > 1 ? k * (all - 1) / (samples - 1) : 0]);
+      some.push_back(moments[samples > 1 ? k * (all - 1) / (samples - 1) : 0]);
     draw(some, true, [&](std::size_t, bool, const image::Image& picture) { palette->add(picture); });
     palette->finish();
   }
@@ -349,7 +403,7 @@ RenderReport render_run(const RenderJob& job) {
                              : std::size_t{1};
   Movie movie(job.movie, style.width, style.height, job.frames_per_second / static_cast<double>(stride),
               ground, palette ? palette->file() : fs::path(), style.background == Background::transparent);
-  draw(numbers, true, [&](std::size_t i, bool drawn, const image::Image& picture) {
+  draw(moments, true, [&](std::size_t i, bool drawn, const image::Image& picture) {
     if (i % stride == 0)
       movie.add(picture);
     else

@@ -14,6 +14,7 @@
 #include "read/table.hpp"
 #include "read/text_frames.hpp"
 #include "run/flow.hpp"
+#include "sweep/sweep.hpp"
 
 namespace chute::app {
 namespace {
@@ -148,12 +149,30 @@ Json of_run(const fs::path& path) {
   return {{"kind", "run"}, {"directory", path.string()}, {"record", record}, {"files", files}};
 }
 
+Json of_sweep(const fs::path& path) {
+  const auto state = sweep::sweep_state(path);
+  Json axes = Json::array();
+  for (const auto& axis : state.spec.axes)
+    axes.push_back({{"key", axis.key}, {"values", axis.points()}, {"unit", axis.unit}});
+  Json starts = Json::object();
+  for (std::size_t v = 0; v < state.starts.size(); ++v)
+    starts[std::string(measure::name(static_cast<measure::Verdict>(v)))] = state.starts[v];
+  Json found{{"kind", "sweep"},     {"directory", path.string()}, {"title", state.title},
+             {"axes", axes},        {"seeds", state.spec.seeds},  {"table", state.table},
+             {"files", state.files}};
+  if (state.spec.boundary)
+    found["boundary"] = state.spec.boundary->axis.key;
+  else
+    found["points"] = state.points, found["found"] = state.found, found["starts"] = starts;
+  return found;
+}
+
 }  // namespace
 
 Json describe_file(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(path.string() + ": no such file or run");
   const auto extension = path.extension();
-  if (fs::is_directory(path)) return of_run(path);
+  if (fs::is_directory(path)) return fs::exists(path / "sweep.toml") ? of_sweep(path) : of_run(path);
   if (extension == ".csv") return of_table(path);
   if (const auto format = read::text_format_of(path)) return of_text_frames(path, *format);
   constexpr std::array point_files{".vtp", ".vtu", ".vtk", ".pvtp", ".pvtu", ".vtm"};

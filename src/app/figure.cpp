@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 #include "app/input.hpp"
+#include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/key_table.hpp"
 #include "common/share_folder.hpp"
 #include "common/toml_reader.hpp"
 #include "experiments/computed_figures.hpp"
@@ -33,19 +36,34 @@ fs::path scenes_folder() {
   return given ? fs::path(given) : share_folder() / "scenes";
 }
 
-/// A recipe file: [data] says where the numbers come from, [plot] how they look.
+/// A recipe file: [data], or several [[data]], say where the numbers come from, [plot] and [style] how they look.
 struct Recipe {
   std::string title;
-  figures::DataRecipe data;
+  std::vector<figures::DataRecipe> data;
   plot::PlotRecipe plot;
+  std::string style_file;  ///< relative to the recipe; in place of [style]
 };
 
 }  // namespace
 
 static void describe(TomlReader& a, Recipe& recipe) {
   a.required("title", recipe.title);
-  a.required_section("data", recipe.data);
+  if (!a.has("data") || a.has_table("data"))
+    a.required_section("data", recipe.data.emplace_back());
+  else
+    a.sections("data", recipe.data);
+  a.check(!recipe.data.empty(), "data", "a figure needs data");
   a.section("plot", recipe.plot);
+  if (!a.has("style") || a.has_table("style"))
+    a.section("style", recipe.plot.changes);
+  else
+    a.value("style", recipe.style_file);
+}
+static void describe(KeyLister& a, Recipe& recipe) {
+  a.required("title", recipe.title, "of the figure");
+  a.sections("data", recipe.data);
+  a.section("plot", recipe.plot);
+  a.section("style", recipe.plot.changes);
 }
 
 namespace {
@@ -59,6 +77,13 @@ Recipe read_recipe(const fs::path& file) {
   recipe.plot.source = file.string();
   describe(reader, recipe);
   reader.finish();
+  if (!recipe.style_file.empty()) {
+    const auto style_file = file.parent_path() / recipe.style_file;
+    const auto keys = parse_toml(read_file(style_file), style_file.string());
+    TomlReader style(keys, style_file.string());
+    describe(style, recipe.plot.changes);
+    style.finish();
+  }
   return recipe;
 }
 
@@ -76,46 +101,59 @@ const Computation& find_computation(const std::string& name, const fs::path& rec
                                hint.empty() ? "" : ", did you mean \"" + hint + "\"?"));
 }
 
-/// Rows of a CSV file with the columns that figures have.
-figures::FigureTable read_rows(const fs::path& file) {
-  const auto table = read::read_table(file);
-  const auto x = table.column("x"), y = table.column("y");
-  const auto series = table.text("series");
-  const auto optional = [&](const char* name) {
-    return table.has(name) ? table.column(name) : std::vector<double>(x.size(), NAN);
-  };
-  const auto x_err = optional("x_err"), y_err = optional("y_err");
-  const auto panel = table.has("panel") ? table.text("panel") : std::vector<std::string>(x.size());
-  const auto known = [](double v) { return std::isfinite(v) ? std::optional(v) : std::nullopt; };
-  figures::FigureTable made;
-  made.comments = table.comments;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    made.rows.push_back({panel[i], series[i], x[i], y[i], known(x_err[i]), known(y_err[i])});
-  return made;
-}
-
-figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, const fs::path& directory,
-                                const figures::FigureContext& context,
-                                const std::function<bool(double)>& progress) {
-  if (recipe.data.table) return read_rows(file.parent_path() / *recipe.data.table);
+/// The rows of one source of a figure.
+figures::FigureTable table_of(const figures::DataRecipe& data, const fs::path& file, const fs::path& directory,
+                              const figures::FigureContext& context,
+                              const std::function<bool(double)>& progress) {
+  if (data.table) return figures::rows_of_table(data.columns, file.parent_path() / *data.table);
+  if (data.formula) return figures::rows_of_formula(*data.formula);
   figures::FigureTable table;
-  if (recipe.data.compute || !recipe.data.experiments.empty()) {
-    table = recipe.data.compute ? find_computation(*recipe.data.compute, file)(context)
-                                : experiments::make_table(recipe.data.experiments, file, context, progress);
-    if (!recipe.data.scene) {
+  if (data.compute || !data.experiments.empty()) {
+    table = data.compute ? find_computation(*data.compute, file)(context)
+                         : experiments::make_table(data.experiments, file, context, progress);
+    if (!data.scene) {
       table.comments.push_back(
           fmt::format("made by chute {} ({}){}", run::version, run::commit,
                       context.quick ? "; quick: a cheaper computation than the full figure's" : ""));
       return table;
     }
   }
-  auto simulated =
-      figures::simulate(recipe.data, file, directory / "runs", context, command_line(), progress);
+  auto simulated = figures::simulate(data, file, directory / "runs", context, command_line(), progress);
   simulated.rows.insert(simulated.rows.begin(), table.rows.begin(), table.rows.end());
   // What x and y are the recipe says; the rest tells of the rows that were computed.
   for (const auto& comment : table.comments)
     if (!comment.starts_with("x:") && !comment.starts_with("y:")) simulated.comments.push_back(comment);
   return simulated;
+}
+
+/// All sources one after the other, and the laws that are put through them.
+figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, const fs::path& directory,
+                                const figures::FigureContext& context,
+                                const std::function<bool(double)>& progress) {
+  figures::FigureTable table;
+  const auto count = static_cast<double>(recipe.data.size());
+  for (std::size_t k = 0; k < recipe.data.size(); ++k) {
+    auto one = table_of(recipe.data[k], file, directory, context,
+                        [&](double part) { return progress((static_cast<double>(k) + part) / count); });
+    for (auto& comment : one.comments)
+      if (std::ranges::find(table.comments, comment) == table.comments.end())
+        table.comments.push_back(std::move(comment));
+    table.rows.insert(table.rows.end(), std::make_move_iterator(one.rows.begin()),
+                      std::make_move_iterator(one.rows.end()));
+  }
+  for (const auto& data : recipe.data)
+    for (const auto& fit : data.fits) figures::draw_fit(fit, table);
+  for (const auto& data : recipe.data)
+    for (const auto& ratio : data.ratios) figures::draw_ratio(ratio, table);
+  return table;
+}
+
+/// The figure of a table's text, as any reader of the file would see the numbers.
+plot::Figure figure_of(const Recipe& recipe, const figures::FigureTable& table, const std::string& text,
+                       const fs::path& csv) {
+  auto plot = recipe.plot;
+  plot.labels = table.labels;
+  return plot::figure_from(plot, read::parse_table(text, csv));
 }
 
 std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {
@@ -163,17 +201,16 @@ std::vector<std::string> make_figure(const fs::path& file, const fs::path& direc
                                      const figures::FigureContext& context,
                                      const std::function<bool(double)>& progress) {
   const Recipe recipe = read_recipe(file);
-  auto table = make_table(recipe, file, directory, context, progress);
-  for (const auto& ratio : recipe.data.ratios) figures::draw_ratio(ratio, table);
+  const auto table = make_table(recipe, file, directory, context, progress);
   const auto beside = [&](const char* extension) { return directory / (file.stem().string() + extension); };
   // A table of the user's own may stand where the figure's would go: it stays as it is.
   std::error_code error;
-  const bool is_source =
-      recipe.data.table && fs::equivalent(file.parent_path() / *recipe.data.table, beside(".csv"), error);
-  // The picture is drawn from the table's text, as any reader of the file would see the numbers; and before anything is
-  // written, since what stands there may be better than nothing.
+  const bool is_source = std::ranges::any_of(recipe.data, [&](const auto& data) {
+    return data.table && fs::equivalent(file.parent_path() / *data.table, beside(".csv"), error);
+  });
+  // Before anything is written, since what stands there may be better than nothing.
   const auto text = csv_text(recipe, table);
-  const auto figure = plot::figure_from(recipe.plot, read::parse_table(text, beside(".csv")));
+  const auto figure = figure_of(recipe, table, text, beside(".csv"));
   const auto layout = plot::lay_out(figure);
   const auto& list = layout.list;
   fs::create_directories(directory);
@@ -193,6 +230,55 @@ std::vector<std::string> make_figure(const fs::path& file, const fs::path& direc
         finding.panel >= 0 && figure.panels.size() > 1 ? fmt::format("panel {}: ", finding.panel + 1) : "",
         plot::name(finding.kind), finding.what));
   return findings;
+}
+
+std::string check_figure(const fs::path& file, const fs::path& directory,
+                         const figures::FigureContext& context) {
+  const Recipe recipe = read_recipe(file);
+  figures::Work work;
+  bool all_there = true;
+  for (const auto& data : recipe.data) {
+    if (data.compute) find_computation(*data.compute, file);
+    if (data.scene) {
+      const auto own = figures::work_of(data, file, directory / "runs", context.quick);
+      work.runs += own.runs, work.there += own.there, work.seconds += own.seconds;
+    }
+    all_there = all_there && !data.scene && !data.compute && data.experiments.empty();
+  }
+  if (all_there) {
+    const auto table = make_table(recipe, file, directory, context, [](double) { return true; });
+    plot::lay_out(figure_of(recipe, table, csv_text(recipe, table), file.stem().string() + ".csv"));
+    return fmt::format("{} rows, nothing to simulate", table.rows.size());
+  }
+  if (work.runs == 0) return "a computation of its own";
+  return fmt::format("{} run{}, {} of them there already, about {} of one core", work.runs,
+                     work.runs == 1 ? "" : "s", work.there, duration_text(work.seconds));
+}
+
+std::string figure_keys() {
+  KeyLister lister;
+  Recipe recipe;
+  describe(lister, recipe);
+  // One table for each table of the recipe, in the order in which they come.
+  std::vector<std::pair<std::string, std::vector<KeyText>>> tables;
+  for (auto key : lister.keys()) {
+    const auto dot = key.key.rfind('.');
+    const auto table = dot == key.key.npos ? std::string() : key.key.substr(0, dot);
+    if (dot != key.key.npos) key.key = key.key.substr(dot + 1);
+    // Axes look the same everywhere.
+    if (table.starts_with("plot.") && table != "plot.x" && (table.ends_with(".x") || table.ends_with(".y"))) continue;
+    auto found = std::ranges::find(tables, table, &std::pair<std::string, std::vector<KeyText>>::first);
+    if (found == tables.end()) found = tables.insert(found, {table, {}});
+    const bool again = std::ranges::any_of(found->second, [&](const auto& k) { return k.key == key.key; });
+    if (!again) found->second.push_back(std::move(key));
+  }
+  KeyTable all;
+  for (const auto& [table, keys] : tables)
+    all.add(table.empty()       ? "All recipes"
+            : table == "plot.x" ? "`[plot.x]`, and every other axis"
+                                : fmt::format("`[{}]`", table),
+            keys);
+  return all.text();
 }
 
 }  // namespace chute::app

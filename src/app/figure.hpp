@@ -19,6 +19,14 @@ std::vector<KnownFigure> known_figures();
 /// The recipe of an id, or the file of that name; of `-` the name that stands for standard input. InputError, with the nearest id, if there is none.
 std::filesystem::path find_recipe(const std::string& name);
 
+/// Says what making a figure would take, without simulating or writing anything: a recipe of data that are there is read and laid
+/// out. InputError as make_figure, where that can be known before.
+std::string check_figure(const std::filesystem::path& recipe, const std::filesystem::path& directory,
+                         const figures::FigureContext& context);
+
+/// Every key that a recipe can have, table by table: `chute figure --keys` and the README.
+std::string figure_keys();
+
 /// Makes DIR/ID.csv, .png, .pdf and .svg from a recipe. Tells what a referee finds wrong with the picture (plot/referee.hpp), a line each.
 std::vector<std::string> make_figure(const std::filesystem::path& recipe,
                                      const std::filesystem::path& directory,

@@ -27,9 +27,14 @@ namespace {
 /// Exit status of the program, see README: 0 done, 1 the work failed, 2 the command or a given file is wrong.
 enum Status { done = 0, failed = 1, wrong = 2 };
 
+/// Says what was wrong: several slips of one file are several lines.
 int end(Status status, std::string_view what) {
-  chute::app::tell("chute: {}\n", what);
-  return status;
+  for (;;) {
+    const auto line = what.substr(0, what.find('\n'));
+    chute::app::tell("chute: {}\n", line);
+    if (line.size() == what.size()) return status;
+    what.remove_prefix(line.size() + 1);
+  }
 }
 
 /// CLI11 would only say that a verb is required.

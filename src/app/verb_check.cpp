@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -20,7 +21,7 @@ namespace {
 struct Checked {
   std::string name, resolved;
   std::vector<Fact> facts;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, chosen{};
 };
 
 Checked check(const std::string& file, const std::vector<std::string>& settings) {
@@ -33,25 +34,53 @@ Checked check(const std::string& file, const std::vector<std::string>& settings)
   } else if (sweep::is_sweep(base)) {
     const auto spec = sweep::read_sweep(base);
     const auto places = sweep::grid(spec.axes);
-    for (const auto& place : places) run::Session(base.scene(place.set), 1);
+    double cost = 0;
+    for (const auto& place : places) {
+      const auto scene = base.scene(place.set);
+      run::Session(scene, 1);
+      cost += run::cost_of(scene);
+    }
+    sweep::Base kept = base;
+    kept.outputs = true;
+    const auto runs = static_cast<double>(places.size()) * static_cast<double>(spec.seeds);
+    constexpr double point = 4e3;  // bytes of a point's file
     found.resolved = sweep::to_toml(base, spec), found.facts = run::facts(base.scene(places.front().set));
     found.facts.push_back(
         {"places", static_cast<double>(places.size()), "", "places of the grid; the rest is of the first"});
+    if (!spec.boundary) {
+      found.facts.push_back({"runs", runs, "", "places times seeds"});
+      found.facts.push_back({"cost of all", cost * static_cast<double>(spec.seeds), "s",
+                             "rough time on one core; --jobs N shares it"});
+      found.facts.push_back({"disk", point * runs, "B", "of the finished points, about"});
+      found.facts.push_back({"disk of runs", run::disk_of(kept.scene(places.front().set)) * runs, "B",
+                             "with --keep-runs, about"});
+    }
   } else {
     const auto scene = scene::parse_scene(input.text, input.name, settings);
     const run::Session refuses_what_a_run_would(scene, 1);
     found.resolved = to_toml(scene), found.facts = run::facts(scene), found.warnings = run::warnings(scene);
+    found.chosen = scene.chosen;
   }
   return found;
+}
+
+/// "3.2 MB"
+std::string size_text(double bytes) {
+  constexpr std::array units{"B", "kB", "MB", "GB", "TB"};
+  std::size_t k = 0;
+  while (bytes >= 1000 && k + 1 < units.size()) bytes /= 1000, ++k;
+  return fmt::format("{:.3g} {}", bytes, units[k]);
 }
 
 void show(const Checked& found) {
   fmt::print("# {}: the complete scene\n{}\n# what follows from it\n", found.name, found.resolved);
   for (const auto& fact : found.facts) {
-    const auto value =
-        fact.name == "cost" ? duration_text(fact.value) : fmt::format("{:.6g} {}", fact.value, fact.unit);
+    const auto value = fact.name.starts_with("cost")   ? duration_text(fact.value)
+                       : fact.name.starts_with("disk") ? size_text(fact.value)
+                                                       : fmt::format("{:.6g} {}", fact.value, fact.unit);
     fmt::print("# {:<16} {:<26} {}\n", fact.name, value, fact.meaning);
   }
+  for (const auto& line : found.chosen) fmt::print("# chosen: {}\n", line);
   for (const auto& warning : found.warnings) fmt::print("# warning: {}\n", warning);
 }
 
@@ -65,6 +94,7 @@ nlohmann::ordered_json as_json(const Checked& found) {
   return {{"file", found.name},
           {"scene", nlohmann::ordered_json::parse(scene.str())},
           {"facts", facts},
+          {"chosen", found.chosen},
           {"warnings", found.warnings}};
 }
 

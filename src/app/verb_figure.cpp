@@ -16,7 +16,7 @@ namespace {
 struct FigureArguments {
   std::vector<std::string> figures;
   std::string directory = "out/figures";
-  bool quick = false, list = false, quiet = false, referee = false;
+  bool quick = false, list = false, keys = false, check = false, quiet = false, referee = false;
   int jobs = 1;
 };
 
@@ -25,6 +25,7 @@ void run(const FigureArguments& arguments) {
     for (const auto& figure : known_figures()) fmt::print("{:<12} {}\n", figure.id, figure.title);
     return;
   }
+  if (arguments.keys) return fmt::print("{}", figure_keys());
   if (arguments.figures.empty())
     throw InputError("figure: name a figure, a recipe file, or all; --list shows them");
   std::vector<std::filesystem::path> recipes;
@@ -34,6 +35,13 @@ void run(const FigureArguments& arguments) {
       continue;
     }
     for (const auto& figure : known_figures()) recipes.push_back(figure.recipe);
+  }
+  if (arguments.check) {
+    figures::FigureContext context;
+    context.quick = arguments.quick;
+    for (const auto& recipe : recipes)
+      fmt::print("{}: {}\n", recipe.string(), check_figure(recipe, arguments.directory, context));
+    return;
   }
   watch_for_interrupt();
   std::size_t found = 0;
@@ -66,6 +74,8 @@ void add_figure(CLI::App& app) {
   verb->add_option("-o,--output", a->directory, "folder for the results")->capture_default_str();
   verb->add_flag("--quick", a->quick, "a cheaper simulation: shorter, fewer points");
   verb->add_flag("--list", a->list, "list the figures that are known");
+  verb->add_flag("--keys", a->keys, "print every key that a recipe can have, with what it means");
+  verb->add_flag("--check", a->check, "say whether the recipes are right and what they would take; write nothing");
   verb->add_option("--jobs", a->jobs, "simulations side by side; results do not depend on it")
       ->check(CLI::Range(1, 1024));
   verb->add_flag(

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "app/description.hpp"
+#include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
+#include "common/file_lock.hpp"
 #include "io/checkpoint_file.hpp"
 #include "run/flow.hpp"
 #include "run/record.hpp"
@@ -97,14 +100,62 @@ void show_flow(const fs::path& path) {
              flow.from, text(flow.v_x), text(flow.omega));
 }
 
+/// How far a run is that has not finished, and how to go on with it.
+void show_progress(const Json& record, const fs::path& path) {
+  const auto end = record.value("end", "");
+  if (end == "finished" || !record.contains("duration")) return;
+  const double time = record.value("time", 0.0), duration = record.value("duration", 0.0);
+  const auto at = fmt::format("at {} = {:.6g} of {:.6g} ({:.0f} %)", record.value("clock", "time"), time,
+                              duration, duration > 0 ? 100 * time / duration : 0);
+  const bool alive = end == "running" && FolderLock::is_held(path);
+  if (alive) {
+    const double left = record.value("seconds_left", 0.0);
+    fmt::print("running: {}{}; tables and frames.pvd are as of {}\n", at,
+               left > 0 ? fmt::format(", about {} left", duration_text(left)) : "",
+               record.value("written", "the begin"));
+  } else {
+    fmt::print("{}: {}; chute run {} --resume goes on\n", end == "running" ? "was cut off" : end, at,
+               path.string());
+  }
+}
+
+void show_account(const Json& record) {
+  if (!record.contains("energy")) return;
+  const auto& energy = record["energy"];
+  fmt::print("the energy account is off by {:.2g} % of what was turned over: {}\n", 100 * energy["part"].get<double>(),
+             text_of(energy["verdict"]));
+}
+
 void show_run(const Json& run, const fs::path& path) {
   fmt::print("{}", run::read_record_text(path));
+  show_progress(run["record"], path);
   show_flow(path);
+  show_account(run["record"]);
   for (const auto& file : run["files"]) {
     const bool folder = file.contains("files");
     fmt::print("  {:<20} {:>12} {}\n", text_of(file["name"]),
                file[folder ? "files" : "bytes"].get<std::uintmax_t>(), folder ? "files" : "bytes");
   }
+}
+
+void show_sweep(const Json& sweep) {
+  fmt::print("{}: {}\n", text_of(sweep["directory"]), text_of(sweep["title"]));
+  for (const auto& axis : sweep["axes"])
+    fmt::print("  {:<28} {} {}\n", text_of(axis["key"]),
+               fmt::join(axis["values"].get<std::vector<double>>(), ", "), text_of(axis["unit"]));
+  fmt::print("  {:<28} 1 to {}\n", "seed", sweep["seeds"].get<int>());
+  if (sweep.contains("boundary")) {
+    fmt::print("boundaries along {}: {} points so far; ", text_of(sweep["boundary"]),
+               sweep["files"].get<int>());
+  } else {
+    fmt::print("{} of {} points are there; starts:", sweep["found"].get<int>(), sweep["points"].get<int>());
+    for (const auto& [verdict, count] : sweep["starts"].items())
+      if (count.get<int>() > 0) fmt::print(" {} {}", count.get<int>(), verdict);
+    fmt::print("; ");
+  }
+  const bool done = sweep["table"].get<bool>() && sweep.value("found", 0) == sweep.value("points", 0);
+  fmt::print("{}\n", done ? "its tables are there"
+                          : fmt::format("chute sweep {} --resume goes on", text_of(sweep["directory"])));
 }
 
 /// Whether every file of a run holds what the run wrote into it.
@@ -128,11 +179,39 @@ void verify(const fs::path& path) {
   fmt::print("{}: {} files are as the run wrote them\n", path.string(), count);
 }
 
+/// What the columns of a table, or the arrays of a VTK file, mean.
+void columns(const fs::path& path) {
+  const auto found = describe_file(path);
+  const auto kind = text_of(found["kind"]);
+  std::vector<std::string> names;
+  std::string comments;
+  if (kind == "table") {
+    for (const auto& column : found["columns"]) names.push_back(text_of(column["name"]));
+    for (const auto& comment : found["comments"]) comments += text_of(comment);
+  } else if (kind == "vtk") {
+    for (const auto& array : found["arrays"])
+      if (array["where"] != "field") names.push_back(text_of(array["name"]));
+  } else {
+    throw InputError(path.string() + ": --columns tells of a table or a VTK file; chute info " + path.string() +
+                     " names those of a run");
+  }
+  const auto* table = find_table_text(path.filename().string(), names);
+  if (!table) throw InputError(path.string() + ": not a file as chute writes them: what its columns mean is not known");
+  const bool si = kind == "vtk" ? found["texts"].value("units", "") == "SI" : comments.find("units: SI") != comments.npos;
+  fmt::print("{}: a row is {}\n", path.string(), table->rows);
+  for (const auto& name : names) {
+    const auto column = column_text(*table, name);
+    const auto unit = !column ? std::string() : si ? column->si : column->reduced;
+    fmt::print("  {:<18} {:<22} {}\n", name, unit, column ? column->meaning : "not known: an axis of the sweep, or another program's");
+  }
+}
+
 void info(const fs::path& path, bool json) {
   const auto found = describe_file(path);
   if (json) return fmt::print("{}\n", found.dump(2));
   const auto kind = text_of(found["kind"]);
   if (kind == "run") show_run(found, path);
+  if (kind == "sweep") show_sweep(found);
   if (kind == "table") show_table(found);
   if (kind == "vtk" || kind == "dump" || kind == "xyz") show_points(found);
 }
@@ -144,11 +223,12 @@ void add_info(CLI::App& app) {
       app.add_subcommand("info", "Tell what a run, a VTK file, a dump, an XYZ file or a table holds");
   struct Arguments {
     std::string path;
-    bool json = false, verify = false;
+    bool json = false, verify = false, columns = false;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_option("path", a->path, "run directory, VTK file, dump of LAMMPS, XYZ file or CSV table")
-      ->required();
+  verb->add_option("path", a->path, "run directory, folder of a sweep, VTK file, dump of LAMMPS, XYZ file or CSV table");
+  verb->add_flag("--columns", a->columns,
+                 "what the columns of a table or the arrays of a VTK file mean; without a file: of all");
   auto* json = verb->add_flag("--json", a->json, "for programs: keys as in README.md");
   verb->add_flag("--verify", a->verify, "compare every file of a run with the checksums in its run.json")
       ->excludes(json);
@@ -156,7 +236,12 @@ void add_info(CLI::App& app) {
       "Exit status with --verify: 0 all files are whole, 1 some are not.\n"
       "Example: chute info out/demo/impacts.vtp\n"
       "         chute info --verify out/demo");
-  verb->callback([a] { a->verify ? verify(a->path) : info(a->path, a->json); });
+  verb->callback([a] {
+    if (a->path.empty() && a->columns) return fmt::print("{}", column_tables());
+    if (a->path.empty()) throw InputError("info: name a run, a sweep, a VTK file or a table");
+    if (a->columns) return columns(a->path);
+    a->verify ? verify(a->path) : info(a->path, a->json);
+  });
 }
 
 }  // namespace chute::app

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <tuple>
 
@@ -12,7 +14,9 @@
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "app/verbs.hpp"
+#include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/file_lock.hpp"
 #include "common/toml_reader.hpp"
 #include "view/render_run.hpp"
 
@@ -24,12 +28,13 @@ struct RenderArguments {
   std::string radius, diameter, velocity, spin, orientation, type, id;
   std::vector<std::string> species;
   std::vector<std::string> plot;
-  double fps = 25;
+  double fps = 25, speed = 0;
   int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int trails = 0;
   std::vector<std::string> cuts;
   bool tilt = false, arrows = false, chains = false, copies = false, impacts = false, occlusion = false,
-       outlines = false, floor = false, box = false, no_spin = false, bare = false, quiet = false;
+       outlines = false, floor = false, box = false, no_spin = false, bare = false, follow = false,
+       quiet = false;
 };
 
 /// `follow`, `follow:mean`, `follow:ID`; false if it is something else.
@@ -163,6 +168,7 @@ view::RenderJob job_of(const RenderArguments& a) {
   meanings.type = a.type, meanings.id = a.id;
   style.species = a.species;
   if (!a.up.empty()) style.up = read_up(a.up);
+  job.speed = a.speed;
   if (a.bare && !a.plot.empty())
     throw InputError("--bare draws the grains alone, --plot a curve beside them");
   if (!a.series.empty() && a.plot.empty()) throw InputError("--series: say with --plot which of its columns");
@@ -173,7 +179,22 @@ view::RenderJob job_of(const RenderArguments& a) {
   return job;
 }
 
-void render(const RenderArguments& a) {
+/// Is there a run going on in the folder?
+bool is_running(const std::filesystem::path& run) {
+  try {
+    return nlohmann::json::parse(read_file(run / "run.json")).value("end", "") == "running" &&
+           FolderLock::is_held(run);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+std::size_t frames_of(const std::filesystem::path& run) {
+  const auto index = run / "frames.pvd";
+  return std::filesystem::exists(index) ? read_file(index).size() : 0;
+}
+
+void draw(const RenderArguments& a) {
   auto job = job_of(a);
   // Stopped between two frames, so that no part of a movie stays behind.
   watch_for_interrupt();
@@ -203,6 +224,26 @@ void render(const RenderArguments& a) {
        where.string());
 }
 
+/// Draws what is there, and then what comes, until the run ends. Where the colours' range grows, all is drawn again in it;
+/// --range keeps it.
+void follow(const RenderArguments& a) {
+  if (!a.movie.empty()) throw InputError("--follow draws pictures: make the movie when the run has ended");
+  if (!std::filesystem::exists(std::filesystem::path(a.run) / "run.json"))
+    throw InputError(fmt::format("{}: --follow needs a run directory", a.run));
+  watch_for_interrupt();
+  constexpr auto pause = std::chrono::milliseconds(500);
+  std::size_t drawn = 0;
+  for (;;) {
+    const bool last = !is_running(a.run);  // asked first: nothing comes after
+    const auto there = frames_of(a.run);
+    if (there != drawn || (last && drawn == 0)) draw(a);
+    drawn = there;
+    if (last && frames_of(a.run) == drawn) return;
+    if (interrupted()) throw WorkError("stopped; the same command goes on from there");
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 }  // namespace
 
 void add_render(CLI::App& app) {
@@ -219,6 +260,10 @@ void add_render(CLI::App& app) {
       "--movie", a->movie,
       "make a movie: .mp4 (H.264), .webm (VP9), .mov (ProRes), .gif or .png (animated); needs ffmpeg");
   verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
+  verb->add_option("--speed", a->speed,
+                   "simulated time in a second of the movie: 0.25 is slow motion in reduced units; what lies between frames "
+                   "is drawn between them; default a frame a picture")
+      ->check(CLI::PositiveNumber);
   verb->add_option("--color", a->color,
                    "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "
                    "default the speed, else the species");
@@ -269,11 +314,13 @@ void add_render(CLI::App& app) {
       ->delimiter(',');
   verb->add_option("-j,--jobs", a->jobs, "processes that draw at once; the pictures are the same")
       ->capture_default_str();
+  verb->add_flag("--follow", a->follow,
+                 "of a run that is going on: draw its frames as they come, to its end");
   verb->add_flag("--quiet", a->quiet, "no progress");
   verb->footer(
       "Pictures that are there and were drawn from the same data in the same style are kept.\n"
       "Example: chute render out/chute-2d --tilt --plot v_x --movie chute.mp4");
-  verb->callback([a] { render(*a); });
+  verb->callback([a] { a->follow ? follow(*a) : draw(*a); });
 }
 
 }  // namespace chute::app

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <thread>
 
 #include "app/input.hpp"
@@ -10,15 +11,19 @@
 #include "common/error.hpp"
 #include "experiments/perform.hpp"
 #include "run/facts.hpp"
+#include "run/growth.hpp"
 #include "run/run.hpp"
 
 namespace chute::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct RunArguments {
   std::string scene, directory;
   std::vector<std::string> settings;
   int threads = 1;
+  double checkpoint_minutes = 5;
   bool resume = false, force = false, quiet = false;
 };
 
@@ -35,20 +40,29 @@ void experiment(const RunArguments& arguments, const Input& scene, const run::Ru
 
 void run(const RunArguments& arguments) {
   if (arguments.resume && arguments.force) throw InputError("--resume and --force exclude each other");
-  const auto input = read_input(arguments.scene);
+  // A run in place of a scene: its own scene, and it goes on where it lies.
+  const bool of_run = std::filesystem::is_directory(arguments.scene);
+  const auto input =
+      read_input(of_run ? (fs::path(arguments.scene) / "scene.toml").string() : arguments.scene);
   run::RunOptions options;
-  options.directory = arguments.directory.empty()
-                          ? std::filesystem::path("out") / std::filesystem::path(input.name).stem()
-                          : std::filesystem::path(arguments.directory);
+  options.directory = !arguments.directory.empty() ? fs::path(arguments.directory)
+                      : of_run                     ? fs::path(arguments.scene)
+                                                   : fs::path("out") / fs::path(input.name).stem();
   options.existing = arguments.resume  ? run::Existing::resume
                      : arguments.force ? run::Existing::replace
                                        : run::Existing::refuse;
   options.threads = arguments.threads;
+  options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.command_line = command_line();
   if (experiments::is_experiment(input.text, input.name)) return experiment(arguments, input, options);
-  const auto scene = scene::parse_scene(input.text, input.name, arguments.settings);
+  const auto scene = arguments.resume
+                         ? run::parse_to_go_on(input.text, input.name, arguments.settings, options.directory)
+                         : scene::parse_scene(input.text, input.name, arguments.settings);
   if (!arguments.quiet)
     for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);
+  if (!arguments.quiet)
+    for (const auto& line : scene.chosen)
+      if (line.starts_with("contact.")) tell("chosen: {}\n", line);
   Progress progress("run", arguments.quiet);
   options.progress = [&](double part) {
     progress.show(part);
@@ -59,10 +73,7 @@ void run(const RunArguments& arguments) {
   watch_for_interrupt();
   const auto result = run::run_scene(scene, options);
   if (!result.finished)
-    throw WorkError(fmt::format(
-        "stopped; go on with: chute run {} -o {} --resume",
-        arguments.scene == standard_input ? (options.directory / "scene.toml").string() : arguments.scene,
-        options.directory.string()));
+    throw WorkError(fmt::format("stopped; go on with: chute run {} --resume", options.directory.string()));
   if (!arguments.quiet)
     tell(
         "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n"
@@ -70,6 +81,13 @@ void run(const RunArguments& arguments) {
         result.steps, duration_text(result.seconds),
         static_cast<double>(result.steps) * static_cast<double>(result.grains) / result.seconds / 1e6,
         options.directory.string(), options.directory.string());
+  if (const auto& account = result.account) {
+    if (account->poor())
+      tell("warning: the energy account is off by {:.3g} % of what was turned over: do not trust this run; smaller steps "
+           "(engine.steps_per_contact) or softer friction (contact.tangential.viscosity) help\n", 100 * account->part);
+    else if (!arguments.quiet)
+      tell("run: the energy account closes to {:.2g} %: {}\n", 100 * std::abs(account->part), account->word);
+  }
 }
 
 }  // namespace
@@ -77,13 +95,20 @@ void run(const RunArguments& arguments) {
 void add_run(CLI::App& app) {
   auto* verb = app.add_subcommand("run", "Simulate a scene into a run directory");
   auto a = std::make_shared<RunArguments>();
-  verb->add_option("scene", a->scene, "scene file (TOML); -: standard input")->required();
+  verb->add_option("scene", a->scene,
+                   "scene file (TOML), or a run directory for its scene; -: standard input")
+      ->required();
   verb->add_option("-o,--output", a->directory, "run directory; default out/NAME-OF-SCENE");
   verb->add_option("--set", a->settings, "change a key of the scene: --set contact.normal.restitution=0.7")
       ->allow_extra_args(false);
   verb->add_option("--threads", a->threads, "threads; results do not depend on it")
       ->check(CLI::Range(1, 1024));
-  verb->add_flag("--resume", a->resume, "go on with an interrupted run");
+  verb->add_flag("--resume", a->resume,
+                 "go on with a run; run.duration and what stands in [output] may be others than before");
+  verb->add_option("--checkpoint-minutes", a->checkpoint_minutes,
+                   "a checkpoint after so many minutes of the clock, too; 0: only those of the scene")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   verb->add_flag("--force", a->force, "replace a run that is already there");
   verb->add_flag("--quiet", a->quiet, "no progress line");
   std::string methods = "Methods (engine.method); their keys: chute check --keys\n";

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
@@ -12,11 +13,13 @@
 namespace chute::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct SweepArguments {
   std::string scene, directory, shard;
-  std::vector<std::string> settings;
+  std::vector<std::string> settings, more;
   int jobs = 1;
-  bool resume = false, quiet = false;
+  bool resume = false, keep_runs = false, quiet = false;
 };
 
 /// "3/8" as shard 3 of 8.
@@ -31,11 +34,19 @@ void read_shard(const std::string& text, sweep::SweepOptions& options) {
 }
 
 void run(const SweepArguments& arguments) {
-  const sweep::Base base{arguments.scene, arguments.settings};
+  // A sweep in place of a scene: what it says of itself, and it goes on where it lies.
+  const bool of_sweep = fs::is_directory(arguments.scene);
+  if (!of_sweep && arguments.directory.empty())
+    throw InputError("sweep: say with -o where the tables and the finished points go");
+  sweep::Base base{of_sweep ? fs::path(arguments.scene) / "sweep.toml" : fs::path(arguments.scene),
+                   arguments.settings};
+  if (!arguments.more.empty()) base.set.push_back(sweep::with_more_values(base, arguments.more));
   sweep::SweepOptions options;
-  options.directory = arguments.directory;
+  options.directory = arguments.directory.empty() ? arguments.scene : arguments.directory;
   options.jobs = arguments.jobs;
   options.resume = arguments.resume;
+  options.keep_runs = arguments.keep_runs || (arguments.resume && fs::exists(options.directory / "runs"));
+  options.command_line = command_line();
   if (!arguments.shard.empty()) read_shard(arguments.shard, options);
   Progress progress("sweep", arguments.quiet);
   watch_for_interrupt();
@@ -43,10 +54,18 @@ void run(const SweepArguments& arguments) {
     progress.show(part);
     return !interrupted();
   };
-  const bool whole = sweep::run_sweep(base, options);
+  bool whole = false;
+  try {
+    whole = sweep::run_sweep(base, options);
+  } catch (const WorkError&) {
+    if (!interrupted()) throw;
+    throw WorkError(fmt::format("stopped; what is done is kept: go on with: chute sweep {} --resume{}",
+                                options.directory.string(),
+                                arguments.shard.empty() ? "" : " --shard " + arguments.shard));
+  }
   if (arguments.quiet) return;
   if (whole)
-    tell("sweep: tables in {}\n", arguments.directory);
+    tell("sweep: tables in {}\n", options.directory.string());
   else
     tell("sweep: shard {} of {} done; the tables follow when all are\n", options.shard, options.shards);
 }
@@ -57,13 +76,19 @@ void add_sweep(CLI::App& app) {
   auto* verb =
       app.add_subcommand("sweep", "Simulate a grid of parameters, or find phase boundaries, into one table");
   auto a = std::make_shared<SweepArguments>();
-  verb->add_option("scene", a->scene, "scene file (TOML) with [sweep]")->required();
-  verb->add_option("-o,--output", a->directory, "folder for the tables and the finished points")->required();
+  verb->add_option("scene", a->scene, "scene file (TOML) with [sweep], or the folder of a sweep")->required();
+  verb->add_option("-o,--output", a->directory, "folder for the tables and the finished points");
+  verb->add_option(
+          "--add", a->more,
+          "KEY=VALUE,VALUE: more values of an axis, or an axis more; with --resume what is done stays")
+      ->allow_extra_args(false);
   verb->add_option("--set", a->settings, "change a key of the scene")->allow_extra_args(false);
   verb->add_option("--jobs", a->jobs, "points side by side; results do not depend on it")
       ->check(CLI::Range(1, 1024));
   verb->add_option("--shard", a->shard, "I/N: do only the I-th of N parts; the parts share the folder");
-  verb->add_flag("--resume", a->resume, "go on with an interrupted sweep");
+  verb->add_flag("--resume", a->resume,
+                 "go on with an interrupted sweep, or with one whose [sweep] has grown: what is done stays");
+  verb->add_flag("--keep-runs", a->keep_runs, "keep every run in runs/, with all outputs of the scene");
   verb->add_flag("--quiet", a->quiet, "no progress line");
   verb->footer(
       "Example: chute sweep scenes/sweep-ball.toml -o out/sweep --jobs 2\n"

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct FigureRow {
 struct FigureTable {
   std::vector<std::string> comments;
   std::vector<FigureRow> rows;
+  std::map<std::string, std::string> labels{};  ///< in the legend, of series whose label is not that of their name
 };
 
 struct FigureContext {

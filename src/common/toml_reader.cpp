@@ -153,27 +153,70 @@ std::string TomlReader::where(const toml::node* node) const {
   return fmt::format("{}:{}: ", document_, source.begin.line);
 }
 
-void TomlReader::fail(std::string_view key, const std::string& message) const {
+/// The line that an error at a key is.
+std::string TomlReader::line_of(std::string_view key, const std::string& message) const {
   const toml::node* node = table_->at_path(key).node();
   if (!node && key.find('.') == key.npos)
     for (const auto& [other, slip] : *table_) {  // it may be absent because of a slip of the pen
       if (std::find(known_.begin(), known_.end(), other.str()) != known_.end()) continue;
       if (edit_distance(other.str(), key) <=
           std::max(key.size() / 3, std::min<std::size_t>(2, key.size() / 2)))
-        throw InputError(where(&slip) + path(other.str()) +
-                         fmt::format(": unknown key, did you mean {}?", key));
+        return where(&slip) + path(other.str()) + fmt::format(": unknown key, did you mean {}?", key);
     }
   for (auto inside = key; !node && inside.find('.') != inside.npos;) {  // at the table that should hold it
     inside = inside.substr(0, inside.rfind('.'));
     node = table_->at_path(inside).node();
   }
-  throw InputError(where(node ? node : table_) + path(key) + ": " + message);
+  return where(node ? node : table_) + path(key) + ": " + message;
+}
+
+void TomlReader::throw_slips() const {
+  if (slips_ && !slips_->lines.empty()) throw InputError(fmt::format("{}", fmt::join(slips_->lines, "\n")));
+}
+
+void TomlReader::slip_line(const std::string& at, const std::string& line) const {
+  if (!slips_) throw InputError(line);
+  if (std::find(slips_->lines.begin(), slips_->lines.end(), line) != slips_->lines.end()) return;
+  constexpr std::size_t most = 10;
+  slips_->paths.push_back(at);
+  slips_->lines.push_back(line);
+  if (slips_->lines.size() == most) throw_slips();
+}
+
+void TomlReader::slip(std::string_view key, const std::string& message) const {
+  slip_line(path(key), line_of(key, message));
+}
+
+/// Is there a slip already that this one may follow from: in the same table, or in the one that the key names?
+bool TomlReader::follows_from_others(std::string_view key) const {
+  const auto own = path(key);
+  return slips_ && std::ranges::any_of(slips_->paths, [&](const std::string& other) {
+           const auto dot = other.rfind('.');
+           return (dot == other.npos ? "" : other.substr(0, dot)) == prefix_ || other == own ||
+                  other.starts_with(own + ".");
+         });
+}
+
+void TomlReader::stop(std::string_view key, const std::string& line) const {
+  if (!slips_) throw InputError(line);
+  if (!follows_from_others(key)) slip_line(path(key), line);
+  throw SlipTold(fmt::format("{}", fmt::join(slips_->lines, "\n")));
+}
+
+void TomlReader::fail(std::string_view key, const std::string& message) const {
+  stop(key, line_of(key, message));
 }
 
 void TomlReader::missing(std::string_view key) const {
-  // A file's tables are read one after the other: those still to come are not unknown, whatever they resemble.
-  if (!prefix_.empty()) find_slip();
-  fail(key, "missing, but required");
+  // The file's own tables are read one after the other: those still to come are not unknown, whatever they resemble.
+  for (const auto& [other, node] : *table_) {
+    if (prefix_.empty() && node.is_table()) continue;
+    if (std::find(known_.begin(), known_.end(), other.str()) != known_.end()) continue;
+    const auto hint = nearest(other.str(), known_);
+    if (!hint.empty() && !has(hint))
+      return slip_line(path(other.str()), where(&node) + path(other.str()) + ": unknown key, did you mean " + hint + "?");
+  }
+  slip(key, "missing, but required");
 }
 
 void TomlReader::find_slip() const {
@@ -181,7 +224,7 @@ void TomlReader::find_slip() const {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
     const auto hint = nearest(key.str(), known_);
     if (!hint.empty() && !has(hint))
-      throw InputError(where(&node) + path(key.str()) + ": unknown key, did you mean " + hint + "?");
+      stop(key.str(), where(&node) + path(key.str()) + ": unknown key, did you mean " + hint + "?");
   }
 }
 
@@ -193,9 +236,9 @@ void TomlReader::value(std::string_view key, double& target, Range range, Text) 
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
-  if (!node->is_number()) fail(key, fmt::format("{} is not a number", shown(*node)));
+  if (!node->is_number()) return slip(key, fmt::format("{} is not a number", shown(*node)));
   const double x = *node->value<double>();
-  if (!range.contains(x)) fail(key, fmt::format("{} is not allowed, must be {}", x, range.describe()));
+  if (!range.contains(x)) return slip(key, fmt::format("{} is not allowed, must be {}", x, range.describe()));
   target = x;
 }
 
@@ -206,7 +249,7 @@ void TomlReader::number_or_word(std::string_view key, std::optional<double>& tar
   if (!node) return;
   if (node->is_number()) return value(key, target.emplace(), range);
   if (node->value<std::string_view>() != word)
-    fail(key, fmt::format("{} is neither a number nor \"{}\"", shown(*node), word));
+    return slip(key, fmt::format("{} is neither a number nor \"{}\"", shown(*node), word));
   target.reset();
 }
 
@@ -214,10 +257,10 @@ void TomlReader::value(std::string_view key, std::int64_t& target, Range range, 
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
-  if (!node->is_integer()) fail(key, fmt::format("{} is not a whole number", shown(*node)));
+  if (!node->is_integer()) return slip(key, fmt::format("{} is not a whole number", shown(*node)));
   const auto x = *node->value<std::int64_t>();
   if (!range.contains(static_cast<double>(x)))
-    fail(key, fmt::format("{} is not allowed, must be {}", x, range.describe()));
+    return slip(key, fmt::format("{} is not allowed, must be {}", x, range.describe()));
   target = x;
 }
 
@@ -225,7 +268,7 @@ void TomlReader::value(std::string_view key, bool& target, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
-  if (!node->is_boolean()) fail(key, fmt::format("{} is not true or false", shown(*node)));
+  if (!node->is_boolean()) return slip(key, fmt::format("{} is not true or false", shown(*node)));
   target = *node->value<bool>();
 }
 
@@ -233,7 +276,7 @@ void TomlReader::value(std::string_view key, std::string& target, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
-  if (!node->is_string()) fail(key, fmt::format("{} is not a text in quotes", shown(*node)));
+  if (!node->is_string()) return slip(key, fmt::format("{} is not a text in quotes", shown(*node)));
   target = *node->value<std::string>();
 }
 
@@ -242,13 +285,13 @@ void TomlReader::value(std::string_view key, std::vector<double>& target, Range 
   const toml::node* node = table_->get(key);
   if (!node) return;
   const toml::array* array = node->as_array();
-  if (!array) fail(key, fmt::format("{} is not a list of numbers", shown(*node)));
+  if (!array) return slip(key, fmt::format("{} is not a list of numbers", shown(*node)));
   target.clear();
   for (const toml::node& item : *array) {
-    if (!item.is_number()) fail(key, fmt::format("{} in the list is not a number", shown(item)));
+    if (!item.is_number()) return slip(key, fmt::format("{} in the list is not a number", shown(item)));
     const double x = *item.value<double>();
     if (!range.contains(x))
-      fail(key, fmt::format("{} in the list is not allowed, must be {}", x, range.describe()));
+      return slip(key, fmt::format("{} in the list is not allowed, must be {}", x, range.describe()));
     target.push_back(x);
   }
 }
@@ -258,10 +301,10 @@ void TomlReader::value(std::string_view key, std::vector<std::string>& target, T
   const toml::node* node = table_->get(key);
   if (!node) return;
   const toml::array* array = node->as_array();
-  if (!array) fail(key, fmt::format("{} is not a list of texts", shown(*node)));
+  if (!array) return slip(key, fmt::format("{} is not a list of texts", shown(*node)));
   target.clear();
   for (const toml::node& item : *array) {
-    if (!item.is_string()) fail(key, fmt::format("{} in the list is not a text in quotes", shown(item)));
+    if (!item.is_string()) return slip(key, fmt::format("{} in the list is not a text in quotes", shown(item)));
     target.push_back(*item.value<std::string>());
   }
 }
@@ -271,14 +314,14 @@ void TomlReader::value(std::string_view key, std::vector<std::vector<double>>& t
   const toml::node* node = table_->get(key);
   if (!node) return;
   const toml::array* places = node->as_array();
-  if (!places) fail(key, fmt::format("{} is not a list of places, [[0, 0], [1, 0]]", shown(*node)));
+  if (!places) return slip(key, fmt::format("{} is not a list of places, [[0, 0], [1, 0]]", shown(*node)));
   target.clear();
   for (const toml::node& item : *places) {
     const toml::array* numbers = item.as_array();
-    if (!numbers) fail(key, fmt::format("{} in the list is not a place, [0, 0]", shown(item)));
+    if (!numbers) return slip(key, fmt::format("{} in the list is not a place, [0, 0]", shown(item)));
     auto& place = target.emplace_back();
     for (const toml::node& number : *numbers) {
-      if (!number.is_number()) fail(key, fmt::format("{} in the list is not a number", shown(number)));
+      if (!number.is_number()) return slip(key, fmt::format("{} in the list is not a number", shown(number)));
       place.push_back(*number.value<double>());
     }
   }
@@ -287,28 +330,35 @@ void TomlReader::value(std::string_view key, std::vector<std::vector<double>>& t
 int TomlReader::choose(std::string_view key, int current, std::span<const std::string_view> words) {
   know(key);
   if (!has(key)) return current;
-  std::string word;
-  value(key, word);
+  if (!table_->get(key)->is_string()) fail(key, fmt::format("{} is not a text in quotes", shown(*table_->get(key))));
+  const std::string word = *table_->get(key)->value<std::string>();
   for (std::size_t i = 0; i < words.size(); ++i)
     if (words[i] == word) return static_cast<int>(i);
   const std::vector<std::string> known(words.begin(), words.end());
   const auto hint = nearest(word, known);
-  fail(key,
-       fmt::format("\"{}\" is not known{}, allowed: {}", word,
-                   hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint), fmt::join(words, ", ")));
+  const auto message =
+      fmt::format("\"{}\" is not known{}, allowed: {}", word,
+                  hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint), fmt::join(words, ", "));
+  // Which keys there are besides follows from it: nothing more can be said.
+  slip(key, message);
+  throw InputError(fmt::format("{}", fmt::join(slips_->lines, "\n")));
 }
 
 TomlReader TomlReader::enter(std::string_view key) const {
   const toml::table* inside = table_->get(key)->as_table();
   if (!inside) fail(key, "must be a table: [" + path(key) + "]");
-  return TomlReader(*inside, document_, path(key));
+  TomlReader reader(*inside, document_, path(key));
+  reader.slips_ = slips_;
+  return reader;
 }
 
 TomlReader TomlReader::enter(std::string_view key, std::size_t index) const {
   const toml::array& array = *table_->get(key)->as_array();
   const toml::table* inside = array.get(index)->as_table();
   if (!inside) fail(key, "must be a list of tables: [[" + path(key) + "]]");
-  return TomlReader(*inside, document_, fmt::format("{}[{}]", path(key), index));
+  TomlReader reader(*inside, document_, fmt::format("{}[{}]", path(key), index));
+  reader.slips_ = slips_;
+  return reader;
 }
 
 std::size_t TomlReader::count(std::string_view key) const {
@@ -320,10 +370,17 @@ std::size_t TomlReader::count(std::string_view key) const {
 void TomlReader::finish() const {
   for (const auto& [key, node] : *table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
-    const auto hint = nearest(key.str(), known_);
-    throw InputError(where(&node) + path(key.str()) + ": unknown key" +
-                     (hint.empty() ? fmt::format(", known: {}", fmt::join(known_, ", "))
-                                   : fmt::format(", did you mean {}?", hint)));
+    auto hint = nearest(key.str(), known_);
+    if (elsewhere_)  // a name that is one in a table says more than one that is only like it
+      for (const auto& name : elsewhere_())
+        if (name.ends_with("." + std::string(key.str()))) {
+          hint = name;
+          break;
+        }
+    slip_line(path(key.str()),
+              where(&node) + path(key.str()) + ": unknown key" +
+                  (hint.empty() ? fmt::format(", known: {}", fmt::join(known_, ", "))
+                                : fmt::format(", did you mean {}?", hint)));
   }
 }
 

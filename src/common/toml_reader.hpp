@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/error.hpp"
 #include "common/range.hpp"
 
 /// Reading validated TOML. A type describes its keys once:
@@ -44,6 +46,11 @@ toml::table parse_toml(std::string_view text, const std::string& name);
 /// InputError if it is not of that form.
 void set_by_path(toml::table& table, std::string_view assignment);
 
+/// A slip that was collected: what is read besides goes on.
+struct SlipTold : InputError {
+  using InputError::InputError;
+};
+
 class TomlReader {
  public:
   /// `table` and `document` must outlive the reader. `prefix` is the dotted path of the table, empty for the
@@ -51,6 +58,13 @@ class TomlReader {
   TomlReader(const toml::table& table, std::string document, std::string prefix = "");
 
   static constexpr bool reading = true;
+
+  /// From now on slips are collected, here and in the tables inside, and reading goes on after each where it can;
+  /// `throw_slips` throws them, a line each, ten at most. What is called after a slip must be ready for defaults.
+  void collect() { slips_ = std::make_shared<Slips>(); }
+  void throw_slips() const;
+  /// Dotted names of keys that stand in tables, for the hint on one that stands outside of its own.
+  void know_elsewhere(std::function<std::vector<std::string>()> names) { elsewhere_ = std::move(names); }
 
   bool has(std::string_view key) const { return table_->contains(key); }
   bool has_table(std::string_view key) const { return has(key) && table_->get(key)->is_table(); }
@@ -94,7 +108,7 @@ class TomlReader {
   template <class T, class... Rule>
   void required(std::string_view key, T& target, Rule... rule) {
     know(key);
-    if (!has(key)) missing(key);
+    if (!has(key)) return missing(key);
     value(key, target, rule...);
   }
 
@@ -113,8 +127,10 @@ class TomlReader {
     know(key);
     if (!has(key)) return;
     TomlReader inside = enter(key);
-    describe(inside, target);
-    inside.finish();
+    inside.go_on_after_slips([&] {
+      describe(inside, target);
+      inside.finish();
+    });
   }
   template <class T>
   void section(std::string_view key, std::optional<T>& target) {
@@ -125,7 +141,7 @@ class TomlReader {
   template <class T>
   void required_section(std::string_view key, T& target) {
     know(key);
-    if (!has(key)) missing(key);
+    if (!has(key)) return missing(key);
     section(key, target);
   }
   /// An array of tables: [[panel]].
@@ -136,8 +152,10 @@ class TomlReader {
     target.clear();
     for (std::size_t i = 0; i < count(key); ++i) {
       TomlReader inside = enter(key, i);
-      describe(inside, target.emplace_back());
-      inside.finish();
+      inside.go_on_after_slips([&] {
+        describe(inside, target.emplace_back());
+        inside.finish();
+      });
     }
   }
 
@@ -155,14 +173,35 @@ class TomlReader {
   }
 
  private:
+  struct Slips {
+    std::vector<std::string> paths, lines;
+  };
   const toml::table* table_;
   std::string document_, prefix_;
   std::vector<std::string> known_;
+  std::shared_ptr<Slips> slips_;
+  std::function<std::vector<std::string>()> elsewhere_;
+
+  template <class Work>
+  void go_on_after_slips(Work&& work) {
+    if (!slips_) return work();
+    try {
+      work();
+    } catch (const SlipTold&) {
+      // It is among the slips.
+    }
+  }
+  /// What is wrong at a key: thrown, or collected.
+  void slip(std::string_view key, const std::string& message) const;
+  void slip_line(const std::string& path, const std::string& line) const;
+  std::string line_of(std::string_view key, const std::string& message) const;
+  [[noreturn]] void stop(std::string_view key, const std::string& line) const;
+  bool follows_from_others(std::string_view key) const;
 
   void know(std::string_view key);
   /// A key that is missing may be there under a misspelt name: then that is what to say.
   void find_slip() const;
-  [[noreturn]] void missing(std::string_view key) const;
+  void missing(std::string_view key) const;
   TomlReader enter(std::string_view key) const;
   TomlReader enter(std::string_view key, std::size_t index) const;
   std::size_t count(std::string_view key) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/atomic_file.hpp"
+#include "common/keys.hpp"
 #include "experiments/curves.hpp"
 #include "experiments/perform.hpp"
 
@@ -16,37 +17,45 @@ using namespace std::string_view_literals;
 constexpr std::array spacing_words{"even"sv, "log"sv};
 }  // namespace
 
-static void describe(TomlReader& a, ExperimentCurve& curve) {
-  a.value("panel", curve.panel);
-  a.required("series", curve.series);
-  a.value("set", curve.set);
-  a.value("quick", curve.quick);
-  a.value("quantity", curve.quantity);
-  a.value("by_curvature", curve.smooth);
-  a.value("values", curve.values);
-  a.value("power_law", curve.power_law);
-  if (curve.power_law) a.required("power_law_at", curve.power_law_at, positive);
+template <class Archive>
+static void describe(Archive& a, ExperimentCurve& curve) {
+  constexpr bool all = !Archive::reading;
+  a.value("panel", curve.panel, "of the series");
+  a.required("series", curve.series, "its name");
+  a.value("set", curve.set, "key=value for its scene, on top of the recipe's");
+  a.value("quick", curve.quick, "and with --quick");
+  a.value("quantity", curve.quantity, "instead of the recipe's");
+  a.value("by_curvature", curve.smooth, "that of the recipe for this curve alone, such as a closed form beside points");
+  a.value("values", curve.values, "of the varied key, instead of the recipe's");
+  a.value("power_law", curve.power_law, "instead of experiments: 1 − y = a x^p with this p");
+  if (all || curve.power_law)
+    a.required("power_law_at", curve.power_law_at, positive, "through the experiment at this x");
   a.check(curve.series.find_first_of(",\"\n") == std::string::npos, "series",
           "must not hold commas, quotes or line breaks");
 }
 
-void describe(TomlReader& a, ExperimentRecipe& recipe) {
-  a.required("scene", recipe.scene);
-  a.value("set", recipe.set);
-  a.value("quick", recipe.quick);
-  a.required("vary", recipe.vary);
-  a.required("from", recipe.from);
-  a.required("to", recipe.to);
-  a.choice("spacing", recipe.spacing, spacing_words);
-  a.value("count", recipe.count, between(2, 100000));
-  a.value("quick_count", recipe.quick_count, between(2, 100000));
-  a.value("by_curvature", recipe.by_curvature);
-  a.value("more", recipe.more);
-  a.required("quantity", recipe.quantity);
-  a.required("x", recipe.x);
-  a.required("y", recipe.y);
-  a.value("notes", recipe.notes);
+template <class Archive>
+static void describe_keys(Archive& a, ExperimentRecipe& recipe) {
+  a.required("scene", recipe.scene, "of the experiment, relative to the recipe");
+  a.value("set", recipe.set, "key=value for all");
+  a.value("quick", recipe.quick, "and with --quick");
+  a.required("vary", recipe.vary, "the key on the x axis");
+  a.required("from", recipe.from, "its first value");
+  a.required("to", recipe.to, "its last value");
+  a.choice("spacing", recipe.spacing, spacing_words, "of the values between");
+  a.value("count", recipe.count, between(2, 100000), "of values");
+  a.value("quick_count", recipe.quick_count, between(2, 100000), "of a quick figure");
+  a.value("by_curvature", recipe.by_curvature, "and further values wherever the curves bend, whatever --quick says");
+  a.value("more", recipe.more, "further values");
+  a.required("quantity", recipe.quantity, "on the y axis: a result, as chute run prints them");
+  a.required("x", recipe.x, "what x is, with its unit: a comment of the CSV");
+  a.required("y", recipe.y, "what y is");
+  a.value("notes", recipe.notes, "further comments");
   a.sections("curve", recipe.curves);
+}
+void describe(KeyLister& a, ExperimentRecipe& recipe) { describe_keys(a, recipe); }
+void describe(TomlReader& a, ExperimentRecipe& recipe) {
+  describe_keys(a, recipe);
   a.check(recipe.spacing == ExperimentRecipe::Spacing::even || (recipe.from > 0 && recipe.to > 0), "from",
           "and to must be > 0 with spacing = \"log\"");
   a.check(!recipe.curves.empty(), "curve", "a figure needs at least one [[data.experiment.curve]]");

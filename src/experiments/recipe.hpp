@@ -8,6 +8,9 @@
 #include "common/figure_table.hpp"
 #include "common/toml_reader.hpp"
 
+namespace chute {
+class KeyLister;
+}
 namespace chute::experiments {
 
 /// One curve: how its experiment differs.
@@ -40,6 +43,7 @@ struct ExperimentRecipe {
 };
 
 void describe(TomlReader& a, ExperimentRecipe& recipe);
+void describe(KeyLister& a, ExperimentRecipe& recipe);
 
 /// Does the experiments of a recipe file, `context.jobs` at a time.
 figures::FigureTable make_table(std::span<const ExperimentRecipe> recipes,

@@ -12,6 +12,7 @@
 #include "figures/fits.hpp"
 #include "figures/ratios.hpp"
 #include "figures/sweep_curves.hpp"
+#include "figures/table_source.hpp"
 
 namespace chute::figures {
 
@@ -96,7 +97,9 @@ struct DataRecipe {
   std::optional<std::string> compute;  ///< instead: a computation that is no run of a scene, by name
   std::vector<experiments::ExperimentRecipe> experiments;  ///< instead: results of experiments
   bool runs = false;                                       ///< instead: every curve names its `runs`
-  std::optional<std::string> table;  ///< instead: a CSV file as figures have it, relative to the recipe
+  std::optional<std::string> table;  ///< instead: a CSV file, relative to the recipe
+  TableColumns columns;              ///< of it
+  std::optional<FormulaCurve> formula;  ///< instead: a line
   std::vector<std::string> set;      ///< key=value for every run
   std::vector<std::string> quick;    ///< and with --quick
   std::int64_t seeds = 1, quick_seeds = 1;  ///< runs per curve, with seeds 1, 2, …
@@ -109,5 +112,6 @@ struct DataRecipe {
 };
 
 void describe(TomlReader& a, DataRecipe& recipe);
+void describe(KeyLister& a, DataRecipe& recipe);
 
 }  // namespace chute::figures

@@ -34,12 +34,17 @@ std::optional<FigureRow> row_at(const std::vector<FigureRow>& rows, double x) {
 
 }  // namespace
 
+template <class Archive>
+static void describe_keys(Archive& a, Ratio& ratio) {
+  a.required("panel", ratio.panel, "where the quotients are drawn");
+  a.required("of", ratio.of, "the panel of the series");
+  a.required("series", ratio.series, "which are divided");
+  a.value("over", ratio.over, "the panel of what they are divided by; default the same");
+  a.value("by", ratio.by, "the series that they are divided by; default the one of their own name");
+}
+void describe(KeyLister& a, Ratio& ratio) { describe_keys(a, ratio); }
 void describe(TomlReader& a, Ratio& ratio) {
-  a.required("panel", ratio.panel);
-  a.required("of", ratio.of);
-  a.required("series", ratio.series);
-  a.value("over", ratio.over);
-  a.value("by", ratio.by);
+  describe_keys(a, ratio);
   a.check(ratio.over || ratio.by, "by",
           "say by which series, or with `over` by those of which panel, they are divided");
 }

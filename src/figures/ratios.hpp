@@ -17,6 +17,7 @@ struct Ratio {
   std::optional<std::string> by;  ///< the series that they are divided by; default the one of their own name
 };
 void describe(TomlReader& a, Ratio& ratio);
+void describe(KeyLister& a, Ratio& ratio);
 
 /// Adds the quotients to the table, with errors of both. Between points of the divisor it is taken as straight; where it
 /// does not reach, or is 0, there is no quotient, and a comment counts those points.

@@ -11,6 +11,7 @@
 #include "figures/extract.hpp"
 #include "figures/extract_hard.hpp"
 #include "figures/held_fixed.hpp"
+#include "run/facts.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
 #include "run/version.hpp"
@@ -95,6 +96,29 @@ FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
 
 }  // namespace
 
+Work work_of(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work, bool quick) {
+  Work found;
+  for (const auto& job : plan_runs(recipe, recipe_file, work, quick).jobs) {
+    ++found.runs;
+    if (run::is_finished_run_of(job.directory, job.scene))
+      ++found.there;
+    else
+      found.seconds += run::cost_of(job.scene);
+  }
+  auto set = recipe.set;
+  if (quick) set.insert(set.end(), recipe.quick.begin(), recipe.quick.end());
+  const auto seeds = quick ? recipe.quick_seeds : recipe.seeds;
+  for (const auto& curve : recipe.sweeps) {
+    const sweep::Base base(recipe_file.parent_path() / *recipe.scene, set);
+    for (const double x : curve.x.points(quick)) {
+      const auto scene = base.with(curve.set).with({curve.x.setting(x)}).scene({});
+      found.runs += static_cast<std::size_t>(seeds);
+      found.seconds += run::cost_of(scene) * static_cast<double>(seeds);
+    }
+  }
+  return found;
+}
+
 /// "5 runs steady, 3 unsettled": what became of the flows that a curve is averaged over.
 static std::string verdicts_of(const std::vector<fs::path>& runs) {
   std::map<std::string, int> count;
@@ -171,7 +195,6 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     table.comments.insert(table.comments.end(), made.comments.begin(), made.comments.end());
     table.rows.insert(table.rows.end(), made.rows.begin(), made.rows.end());
   }
-  for (const auto& fit : recipe.fits) draw_fit(fit, table);
   return table;
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "common/keys.hpp"
 #include "figures/square_root_fit.hpp"
 #include "scene/world.hpp"
 
@@ -115,22 +116,27 @@ SquareRootFit offset_fit(const std::vector<Point>& points, const std::string& pa
 
 }  // namespace
 
-void describe(TomlReader& a, SweepCurve& curve) {
-  a.value("panel", curve.panel);
-  a.required("series", curve.series);
-  a.value("set", curve.set);
+template <class Archive>
+static void describe_keys(Archive& a, SweepCurve& curve) {
+  a.value("panel", curve.panel, "of the series");
+  a.required("series", curve.series, "its name");
+  a.value("set", curve.set, "key=value for its scene, on top of the recipe's");
   a.required_section("x", curve.x);
-  a.choice("column", curve.column, column_words);
-  a.value("velocities", curve.velocities);
-  a.value("alike", curve.alike, Range{0, 1, true, true});
+  a.choice("column", curve.column, column_words, "means over starts, or boundaries of phases");
+  a.value("velocities", curve.velocities, "launches, slowest first");
+  a.value("alike", curve.alike, Range{0, 1, true, true}, "how far their medians may lie apart in B");
   a.section("boundary", curve.boundary);
-  a.value("scale", curve.scale, positive);
-  a.value("along_sine", curve.along_sine);
-  a.value("quick_tolerance", curve.quick_tolerance, positive);
+  a.value("scale", curve.scale, positive, "y times this");
+  a.value("along_sine", curve.along_sine, "AB, BC: drawn over sin θ");
+  a.value("quick_tolerance", curve.quick_tolerance, positive, "AB, BC: of a quick figure");
+  a.value("above_offset", curve.above_offset, "v_x: (v_x − v_0)², with v_0 from a fit of (4.20) in phase B");
+  a.value("offset_of", curve.offset_of, "v_0 of that series instead of the own one's");
+}
+void describe(KeyLister& a, SweepCurve& curve) { describe_keys(a, curve); }
+void describe(TomlReader& a, SweepCurve& curve) {
+  describe_keys(a, curve);
   a.check(!curve.along_sine || is_boundary(curve), "along_sine", "is of boundaries: AB, BC");
   a.check(!curve.quick_tolerance || is_boundary(curve), "quick_tolerance", "is of boundaries: AB, BC");
-  a.value("above_offset", curve.above_offset);
-  a.value("offset_of", curve.offset_of);
   a.check(is_boundary(curve) == curve.boundary.has_value(), "boundary",
           "AB and BC, and only they, say along which parameter: boundary = { axis = …, tolerance = … }");
   a.check(!curve.boundary || curve.boundary->axis.key == "incline.sin" ||

@@ -32,6 +32,7 @@ struct SweepCurve {
   std::optional<std::string> offset_of;   ///< v_0 of that series instead of the own one's
 };
 void describe(TomlReader& a, SweepCurve& curve);
+void describe(KeyLister& a, SweepCurve& curve);
 
 /// What all sweeps of a recipe have in common.
 struct SweepSetting {

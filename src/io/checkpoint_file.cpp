@@ -13,7 +13,7 @@
 namespace chute::io {
 namespace {
 
-constexpr std::string_view magic = "chute checkpoint 6\n";
+constexpr std::string_view magic = "chute checkpoint 7\n";
 constexpr std::size_t digits = 16;   // of a length, in hexadecimal
 constexpr std::size_t trailer = 64;  // the hash, in hexadecimal
 
@@ -115,10 +115,9 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointHead& h
   flush_folder(folder_of(path));
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& scene) {
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
   const Parts parts(path);
-  if (parts.scene != scene) throw InputError(path.string() + ": belongs to another scene");
-  return {std::string(parts.program), std::string(parts.state)};
+  return {std::string(parts.program), std::string(parts.scene), std::string(parts.state)};
 }
 
 void check_checkpoint(const std::filesystem::path& path) { const Parts parts(path); }

@@ -26,10 +26,11 @@ Temporary made_checkpoint(const std::filesystem::path& path, const CheckpointHea
 
 struct Checkpoint {
   std::string program;  ///< that wrote it
+  std::string scene;    ///< the complete one it belongs to
   std::string state;
 };
-/// InputError if the file is missing, truncated, damaged, or belongs to another scene.
-Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& scene);
+/// InputError if the file is missing, truncated or damaged.
+Checkpoint read_checkpoint(const std::filesystem::path& path);
 /// InputError if the file is missing, truncated or damaged.
 void check_checkpoint(const std::filesystem::path& path);
 /// The grains, as bytes of a VTK file, whatever the scene.

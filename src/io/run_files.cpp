@@ -36,6 +36,26 @@ void RunFiles::write(const std::string& name, std::string_view bytes) {
   hidden_.emplace(name, made(name, bytes));
 }
 
+void RunFiles::show() {
+  for (auto& [name, file] : hidden_) {
+    file.move_into_place();
+    unflushed_.push_back(file.target());
+  }
+  hidden_.clear();
+}
+
+void RunFiles::remove_frames_beyond() const {
+  std::set<fs::path> folders;
+  for (const auto& [name, sum] : sums_)
+    if (sum.once) folders.insert(fs::path(name).parent_path());
+  for (const auto& inside : folders) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder_ / inside, error))
+      if (!is_temporary(entry.path()) && sums_.count((inside / entry.path().filename()).string()) == 0)
+        fs::remove(entry.path(), error);
+  }
+}
+
 void RunFiles::commit() {
   std::set<fs::path> folders{folder_};
   for (auto& [name, file] : hidden_) file.flush();

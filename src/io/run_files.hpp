@@ -32,6 +32,10 @@ class RunFiles {
   void write_once(const std::string& name, std::string_view bytes);
   /// A table that is written again and again: the old one stays until `commit`.
   void write(const std::string& name, std::string_view bytes);
+  /// Tables that were written take their names, for those who watch. They are surely on the disk only after `commit`.
+  void show();
+  /// Frames that are there but that this run did not write, left by one that was killed after its checkpoint, go.
+  void remove_frames_beyond() const;
   /// Everything is on the disk, under its name. WorkError that names the file if it is not.
   void commit();
 

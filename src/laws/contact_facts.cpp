@@ -58,7 +58,7 @@ class ContactFacts {
           if constexpr (requires { law.effective_viscosity(pair_); })
             // Slip decays at γ_s (1/m_eff + R²/I for each grain): 7/2 for solid spheres
             add("gamma_s dt 7/2m", law.effective_viscosity(pair_) * 3.5 / pair_.m_eff * dt, "",
-                "decay of slip in one step; above about 1 the integration is unstable");
+                "decay of slip in one step; keep it below 0.1");
           else if constexpr (requires { law.stiffness_at(impact_.deepest, pair_); })
             half_period(
                 law.stiffness_at(impact_.deepest, pair_), requires { Law::hertz_spring; });

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/estimate.hpp"
@@ -39,10 +40,7 @@ class Blocks {
 
   /// The bins of the block that holds this time. Counts as one more sample.
   std::vector<Sums>& sample(double time) {
-    const double length = window_.until - window_.from;
-    const double part = length > 0 ? (time - window_.from) / length : 0;
-    const auto count = static_cast<double>(blocks_.size());
-    auto& block = blocks_[static_cast<std::size_t>(std::clamp(part * count, 0.0, count - 1))];
+    auto& block = block_at(time);
     block.samples += 1;
     return block.bins;
   }
@@ -68,14 +66,31 @@ class Blocks {
   }
   std::vector<Part> stretches() const { return stretches(window_.from); }
 
+  /// A run that goes on for longer cuts another window: what was gathered in blocks of the old one counts for the block of
+  /// the new one that holds its middle.
   template <class Archive>
   void serialize(Archive& a) {
-    a(blocks_);
+    Window before = window_;
+    a(before.from, before.until, blocks_);
+    if (before.from == window_.from && before.until == window_.until && blocks_.size() == window_.blocks)
+      return;
+    const auto gathered = std::exchange(blocks_, std::vector<Part>(window_.blocks));
+    const double width = (before.until - before.from) / static_cast<double>(gathered.size());
+    for (std::size_t b = 0; b < gathered.size(); ++b)
+      if (gathered[b].samples > 0)
+        block_at(before.from + (static_cast<double>(b) + 0.5) * width) += gathered[b];
   }
 
  private:
   Window window_;
   std::vector<Part> blocks_;
+
+  Part& block_at(double time) {
+    const double length = window_.until - window_.from;
+    const double part = length > 0 ? (time - window_.from) / length : 0;
+    const auto count = static_cast<double>(blocks_.size());
+    return blocks_[static_cast<std::size_t>(std::clamp(part * count, 0.0, count - 1))];
+  }
 };
 
 /// What `mean_of(sums, samples)` says about one bin: of the whole window, so that fluctuations count slow

@@ -28,6 +28,7 @@ class CellsOutput final : public TableOutput<CellsOutput, CellsSpec> {
   double rhythm() const override {
     return spec ? spec->every / static_cast<double>(spec->samples) : std::numeric_limits<double>::infinity();
   }
+  std::vector<std::string> may_change() const override { return {"every", "from"}; }
   std::vector<std::string> files() const override { return {"cells.pvd", "cells"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };

@@ -22,8 +22,8 @@ class Frames final : public Remembering<Frames> {
 
   void look(const Look& look) override {
     if (with_contacts_) contacts_.gather(look);
-    const auto k = due_.index_at(look.engine.step());
-    if (k < 0) return;
+    if (due_.index_at(look.engine.step()) < 0) return;
+    const auto k = static_cast<std::int64_t>(times_.size());  // on, where the interval changed meanwhile
     const GrainsView grains = look.engine.grains();
     const auto facts = facts_at(look.engine.time());
     run_.write_once(name("frames", k), io::grains_vtp(grains, facts));

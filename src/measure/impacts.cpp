@@ -61,11 +61,12 @@ class Histograms final : public ImpactObserver<Histograms> {
   }
 
   void write(const Flow& flow) const override {
-    io::Csv csv(
-        run_.comments("impacts of grains with grains, with the bed, and all: probability densities of gamma "
-                      "modulo pi and of abs(v_n), and the mean abs(v_n) at each gamma; errors from blocks of "
-                      "the time window"),
-        {"pair", "quantity", "x", "value", "value_err"});
+    auto comments = run_.comments(
+        "impacts of grains with grains, with the bed, and all: probability densities of gamma "
+        "modulo pi and of abs(v_n), and the mean abs(v_n) at each gamma; errors from blocks of "
+        "the time window");
+    for (auto& line : run_.average_note(from_, flow)) comments.push_back(std::move(line));
+    io::Csv csv(comments, {"pair", "quantity", "x", "value", "value_err"});
     for (const auto& row : histograms_.result(from_.value_or(flow.from)))
       csv.row({row.pair, row.quantity}, {row.x, row.value.mean, row.value.error});
     run_.write("impact_histograms.csv", csv.text());

@@ -36,6 +36,7 @@ class Layers final : public Remembering<Layers<Measure, Row>> {
   }
   void write(const Flow& flow) const override {
     auto comments = run_.comments(file_.what);
+    for (auto& line : run_.average_note(from_, flow)) comments.push_back(std::move(line));
     if (measure_.beyond() > 0)
       comments.push_back(fmt::format("{} samples of grains higher than {} layers are left out",
                                      measure_.beyond(), most_layers));

@@ -15,6 +15,7 @@ class MomentsOutput final : public TableOutput<MomentsOutput, Every> {
  public:
   static constexpr std::string_view word = "moments", text = "temperature and a_2 of all velocities";
   double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
+  std::vector<std::string> may_change() const override { return {"every", "from"}; }
   std::vector<std::string> files() const override { return {"moments.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };

@@ -48,6 +48,9 @@ struct RunContext {
   Window window(std::optional<double> from) const { return {from.value_or(0), duration, from ? 10u : 64u}; }
   /// Comment lines of a table: what it holds, and from which run.
   std::vector<std::string> comments(std::string what) const;
+  /// From when on averages with from = "steady" count, and whether that was a steady state: for the comments of a table.
+  /// Nothing where the scene names the time.
+  std::vector<std::string> average_note(const std::optional<double>& from, const Flow& flow) const;
   /// A table, which is written again and again, as of now.
   void write(const std::string& name, const std::string& bytes) const;
   /// A frame, which never changes.
@@ -120,6 +123,8 @@ class Output : public Keys {
   virtual void fill(const Scales&) {}
   /// Shortest time between its looks that steps should divide; infinite if it does not matter.
   virtual double rhythm() const { return std::numeric_limits<double>::infinity(); }
+  /// Keys that a run may change when it goes on, while what was collected stays. Where others change it begins anew.
+  virtual std::vector<std::string> may_change() const { return {}; }
   /// Names in the run directory that it writes, files and folders.
   virtual std::vector<std::string> files() const = 0;
   /// The observers; `wanted` holds.

@@ -19,6 +19,7 @@ class SeriesOutput final : public Described<Output, SeriesOutput> {
   void drop() override {}
   void before_reading(const Scales& scales) override;
   double rhythm() const override { return series.every; }
+  std::vector<std::string> may_change() const override { return {"every", "from"}; }
   std::vector<std::string> files() const override { return {"series.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
@@ -42,6 +43,7 @@ class FramesOutput final : public Described<Output, FramesOutput> {
   void drop() override { frames.reset(), contacts = false; }
   Needs needs() const override { return {.contacts = contacts}; }
   double rhythm() const override { return frames ? frames->every : std::numeric_limits<double>::infinity(); }
+  std::vector<std::string> may_change() const override { return {"every", "from", "contacts"}; }
   std::vector<std::string> files() const override {
     return {"frames.pvd", "frames", "contacts", "walls.vtp"};
   }

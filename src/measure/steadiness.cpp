@@ -151,7 +151,43 @@ std::optional<Verdict> verdict_named(std::string_view name) {
   return static_cast<Verdict>(found - names.begin());
 }
 
+namespace {
+
+/// Rows that lie as far apart as the two that lie farthest, for a run whose rows were made to come more often or more seldom
+/// on the way; empty if all lie equally far apart but for rounding to steps.
+std::vector<std::size_t> even_rows(std::span<const double> time) {
+  constexpr double rounding = 1.5;
+  double least = INFINITY, most = 0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    least = std::min(least, time[k] - time[k - 1]);
+    most = std::max(most, time[k] - time[k - 1]);
+  }
+  if (!(most > rounding * least) || !(least > 0)) return {};
+  std::vector<std::size_t> rows{0};
+  for (std::size_t k = 1; k < time.size(); ++k)
+    if (time[k] - time[rows.back()] >= most * (1 - 1e-6)) rows.push_back(k);
+  return rows;
+}
+
+/// Length of the record in sqrt(length/g); infinite without gravity, where nothing accelerates by itself.
+double time_units(const FlowSeries& s, const FlowScales& scales) {
+  if (!(scales.gravity > 0)) return INFINITY;
+  return (s.time.back() - s.time.front()) / std::sqrt(scales.length / scales.gravity);
+}
+/// In less, grains that were launched have not even met all of each other.
+constexpr double shortest_record = 20;
+
+}  // namespace
+
 Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
+  if (const auto rows = even_rows(series.time); !rows.empty()) {
+    std::array<std::vector<double>, 4> thinned;
+    for (const auto row : rows) {
+      thinned[0].push_back(series.time[row]), thinned[1].push_back(series.x[row]);
+      thinned[2].push_back(series.omega[row]), thinned[3].push_back(series.kinetic[row]);
+    }
+    return judge_flow({thinned[0], thinned[1], thinned[2], thinned[3]}, scales);
+  }
   const Record record(series);
   const auto unknown = [](double value) { return Estimate{value, {}}; };
   if (record.rows() < 2) return {Verdict::unsettled, NAN, unknown(NAN), unknown(NAN), unknown(NAN)};
@@ -173,6 +209,7 @@ Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
     return {Verdict::steady, series.time[first], estimate_in_time(record.velocities(first, stretches)),
             estimate_in_time(record.means(series.omega, first, stretches)),
             estimate_in_time(record.means(series.kinetic, first, stretches))};
+  if (time_units(series, scales) < shortest_record) return plain(Verdict::unsettled, late);
   if (runs_away(v)) return plain(Verdict::runaway, late);
   return plain(accelerates(v) ? Verdict::accelerating : Verdict::unsettled, late);
 }

@@ -20,7 +20,8 @@ std::string_view name(Verdict verdict);
 /// The verdict of that name, or nothing.
 std::optional<Verdict> verdict_named(std::string_view name);
 
-/// Time series of a run, equally long, equally spaced in time.
+/// Time series of a run, equally long. Where rows come in two different intervals, those that lie as far apart as the
+/// longer one are judged.
 struct FlowSeries {
   std::span<const double> time;
   std::span<const double> x;        ///< mean place along the incline, counted on through the periods
@@ -59,7 +60,7 @@ struct Flow {
 /// - `accelerating`: over the last three quarters of the run the velocity grows by a fifth or more, and the
 ///   growth from the second of these quarters to the third is at least 0.8 of that from the first to the
 ///   second. An approach to some velocity within a time shorter than the run slows down more than that.
-/// - `unsettled`: everything else, and less than 64 rows.
+/// - `unsettled`: everything else, and less than 64 rows. `runaway` and `accelerating` need a record of 20 √(length/g).
 ///
 /// Errors are standard errors over twelve stretches, enlarged by √((1+r)/(1−r)) where neighbouring stretches
 /// are correlated, r > 0.

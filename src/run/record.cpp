@@ -20,17 +20,28 @@ void write_record(const std::filesystem::path& file, const RunRecord& r,
                   const std::optional<measure::Flow>& flow, std::span<const measure::Flow> starts) {
   utsname machine{};
   uname(&machine);
-  nlohmann::ordered_json json{
-      {"program", "chute"},       {"version", version},
-      {"commit", commit},         {"build", build_hash()},
-      {"command", r.command},     {"seed", r.seed},
-      {"threads", r.threads},     {"machine", fmt::format("{} {}", machine.sysname, machine.machine)},
-      {"started", r.started},     {"written", RunRecord::now()},
-      {"seconds", r.seconds},     {"steps", r.steps},
-      {"time_step", r.time_step}, {"time", r.time},
-      {"clock", r.clock},         {"end", r.end}};
+  nlohmann::ordered_json json{{"program", "chute"},
+                              {"version", version},
+                              {"commit", commit},
+                              {"build", build_hash()},
+                              {"command", r.command},
+                              {"seed", r.seed},
+                              {"threads", r.threads},
+                              {"machine", fmt::format("{} {}", machine.sysname, machine.machine)},
+                              {"started", r.started},
+                              {"written", RunRecord::now()},
+                              {"seconds", r.seconds},
+                              {"steps", r.steps},
+                              {"time_step", r.time_step},
+                              {"time", r.time},
+                              {"duration", r.duration},
+                              {"clock", r.clock},
+                              {"end", r.end}};
+  if (r.left > 0) json["seconds_left"] = r.left;
   if (!r.why.empty()) json["why"] = r.why;
   if (flow) json["flow"] = to_json(*flow);
+  if (r.account)
+    json["energy"] = {{"residual", r.account->residual}, {"part", r.account->part}, {"verdict", r.account->word}};
   if (r.tilting) {
     const auto degrees = [](const std::optional<double>& angle) {
       return angle ? nlohmann::ordered_json(*angle) : nlohmann::ordered_json();

@@ -12,6 +12,7 @@
 #include "common/hash.hpp"
 #include "io/checkpoint_file.hpp"
 #include "measure/schedule.hpp"
+#include "run/growth.hpp"
 #include "run/record.hpp"
 #include "run/session.hpp"
 #include "run/version.hpp"
@@ -25,22 +26,26 @@ using Clock = std::chrono::steady_clock;
 class Run {
  public:
   Run(const scene::Scene& scene, const RunOptions& options)
-      : scene_(scene),
+      : scene_(as_it_goes_on(scene, options)),
         options_(options),
-        resolved_(scene::to_toml(scene)),
+        resolved_(scene::to_toml(scene_)),
         files_(std::make_shared<io::RunFiles>(options.directory)),
-        session_(scene, options.threads, files_),  // may refuse the scene: before anything is written
+        session_(scene_, options.threads, files_),  // may refuse the scene: before anything is written
         directory_(options.directory, options.existing),
-        checkpoint_due_(scene.checkpoint, scene.checkpoint, session_.time_step()) {}
+        checkpoint_due_(scene_.checkpoint, scene_.checkpoint, session_.time_step()) {}
 
   RunResult go() {
     const auto begin = Clock::now();
     begin_or_put_back();
     const auto first = engine().step(), last = session_.last_step();
+    first_step_ = first, began_ = Clock::now();
     bool wanted = true;
     while (engine().step() < last && wanted) {
       advance();
-      if (checkpoint_due_.index_at(engine().step()) >= 0 && worth_saving()) save();
+      if ((checkpoint_due_.index_at(engine().step()) >= 0 || saved_long_ago()) && worth_saving())
+        save();
+      else if (worth_showing())
+        show();
       wanted = report();
     }
     save();
@@ -50,11 +55,12 @@ class Run {
     if (finished) directory_.finish();
     // A bar on a terminal ends full, however short the run was.
     if (finished && options_.progress) options_.progress(1);
-    return {finished, engine().step() - first, engine().grains().moving, took.count()};
+    return {finished, engine().step() - first, engine().grains().moving, took.count(), account(),
+            session_.series().rows() > 0 ? session_.series().starts() : std::vector<measure::Flow>{}};
   }
 
  private:
-  const scene::Scene& scene_;
+  scene::Scene scene_;
   const RunOptions& options_;
   std::string resolved_;
   std::shared_ptr<io::RunFiles> files_;
@@ -63,8 +69,17 @@ class Run {
   measure::Schedule checkpoint_due_;
   std::int64_t steps_per_report_ = 1000;
   Clock::time_point reported_ = Clock::now(), saved_ = reported_;
-  Clock::duration saving_takes_{};
+  Clock::time_point shown_ = reported_, began_ = reported_;
+  Clock::duration saving_takes_{}, showing_takes_{};
+  std::int64_t first_step_ = 0;
   std::string started_ = RunRecord::now();
+
+  /// The scene as the run in the folder can go on with it.
+  static scene::Scene as_it_goes_on(const scene::Scene& scene, const RunOptions& options) {
+    const auto checkpoint = options.directory / "checkpoint";
+    if (options.existing != Existing::resume || !std::filesystem::exists(checkpoint)) return scene;
+    return grown(scene, io::read_checkpoint(checkpoint).scene, checkpoint.string());
+  }
 
   Engine& engine() { return session_.engine(); }
 
@@ -93,15 +108,24 @@ class Run {
 
   void begin_() {
     if (directory_.resumes()) {
-      const auto checkpoint = io::read_checkpoint(directory_.file("checkpoint"), resolved_);
+      const auto checkpoint = io::read_checkpoint(directory_.file("checkpoint"));
       if (checkpoint.program != program() && options_.warn)
         options_.warn(
             fmt::format("{}: written by {}, this is {}: the results may differ from those of one program",
                         directory_.file("checkpoint").string(), checkpoint.program, program()));
       std::istringstream state(checkpoint.state);
-      session_.load(state);
+      const auto told = session_.load(state);
+      if (engine().step() > session_.last_step())
+        throw InputError(fmt::format("run.duration: {:.6g} is over: the run in {} is at t = {:.6g}",
+                                     scene_.duration, directory_.path().string(), engine().time()));
       for (const auto& difference : io::frames_cut_short(directory_.path(), files_->sums()))
         throw InputError(difference + "; give --force to start again");
+      if (checkpoint.scene == resolved_) return;
+      for (const auto& line : told)
+        if (options_.warn) options_.warn(line);
+      files_->remove_frames_beyond();
+      files_->write("scene.toml", resolved_);
+      save();
       return;
     }
     refuse_another_scene();
@@ -116,8 +140,10 @@ class Run {
   void refuse_another_scene() const {
     if (options_.existing != Existing::resume) return;
     const auto file = directory_.file("scene.toml");
-    if (std::filesystem::exists(file) && read_file(file) != resolved_)
-      throw InputError(file.string() + ": is another scene; give --force to replace the run");
+    if (!std::filesystem::exists(file)) return;
+    if (const auto difference = difference_that_matters(read_file(file), resolved_))
+      throw InputError(fmt::format("{}: is another scene: {}; give --force to replace the run", file.string(),
+                                   *difference));
   }
 
   /// What wrote a checkpoint; the same bytes are promised of the same build only.
@@ -129,6 +155,28 @@ class Run {
   bool worth_saving() const {
     constexpr int work_per_cost = 19;  // checkpoints take a twentieth of the time at most
     return Clock::now() - saved_ >= work_per_cost * saving_takes_;
+  }
+
+  bool saved_long_ago() const {
+    return options_.checkpoint_seconds > 0 &&
+           Clock::now() - saved_ >= std::chrono::duration<double>(options_.checkpoint_seconds);
+  }
+
+  /// Those who watch a run see it some seconds late.
+  bool worth_showing() const {
+    constexpr auto pause = std::chrono::seconds(2);
+    constexpr int work_per_cost = 19;  // as with checkpoints
+    const auto gone = Clock::now() - std::max(shown_, saved_);
+    return gone >= pause && gone >= work_per_cost * showing_takes_;
+  }
+  /// Tables and run.json as of now, without waiting for the disk.
+  void show() {
+    const auto before = Clock::now();
+    session_.write();
+    files_->show();
+    write_run_json("running", "", std::chrono::duration<double>(before - began_).count());
+    shown_ = Clock::now();
+    showing_takes_ = shown_ - before;
   }
 
   /// Everything on disk as of now; the checkpoint last, so that it never promises files that are not there.
@@ -156,6 +204,7 @@ class Run {
     record.steps = engine().step();
     record.time_step = session_.time_step();
     record.time = engine().time();
+    record.duration = scene_.duration;
     record.clock = session_.context().offers.clock;
     record.end = state;
     record.files = files_->sums();
@@ -166,11 +215,20 @@ class Run {
     auto record = this->record(state);
     record.seconds = seconds;
     record.why = why;
+    if (const auto gone = engine().step() - first_step_; state == "running" && gone > 0)
+      record.left =
+          seconds * static_cast<double>(session_.last_step() - engine().step()) / static_cast<double>(gone);
     const auto& series = session_.series();
     record.tilting = series.turning_angles();
+    record.account = account();
     const auto file = directory_.file("run.json");
     series.rows() > 0 ? write_record(file, record, series.flow(), series.starts())
                       : write_record(file, record);
+  }
+
+  std::optional<measure::AccountVerdict> account() const {
+    const auto& rows = session_.series().series();
+    return rows.empty() ? std::nullopt : measure::judge_account(rows.back().energy);
   }
 
   /// Slices of about a tenth of a second, so that progress and interruption feel prompt.

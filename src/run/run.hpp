@@ -1,8 +1,12 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "measure/account.hpp"
+#include "measure/steadiness.hpp"
 #include "run/run_directory.hpp"
 #include "scene/scene.hpp"
 
@@ -12,7 +16,8 @@ struct RunOptions {
   std::filesystem::path directory;
   Existing existing = Existing::refuse;
   int threads = 1;
-  std::string command_line;  ///< for run.json
+  double checkpoint_seconds = 300;  ///< of the clock on the wall, between checkpoints at most; 0: any time
+  std::string command_line;         ///< for run.json
   /// Called now and then with the part done, 0 to 1. Returning false stops the run after a checkpoint.
   std::function<bool(double part)> progress;
   /// Told what the user should know, though the run goes on.
@@ -20,10 +25,12 @@ struct RunOptions {
 };
 
 struct RunResult {
-  bool finished;       ///< false: stopped by `progress`; resume to go on
-  std::int64_t steps;  ///< done by this call
-  std::size_t grains;  ///< that move
-  double seconds;      ///< wall time of this call
+  bool finished;                        ///< false: stopped by `progress`; resume to go on
+  std::int64_t steps;                   ///< done by this call
+  std::size_t grains;                   ///< that move
+  double seconds;                       ///< wall time of this call
+  std::optional<measure::AccountVerdict> account{};
+  std::vector<measure::Flow> starts{};  ///< what became of it, or of each grain that does not feel the others
 };
 
 /// Runs a scene into a run directory, or goes on with one: the same scene, seed and build give the same

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cereal/types/string.hpp>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 #include "common/state_archive.hpp"
 #include "run/version.hpp"
@@ -15,6 +17,24 @@ namespace {
 
 std::string units_of(const scene::Scene& scene) {
   return std::string(scene::units_words[static_cast<std::size_t>(scene.units)]);
+}
+
+/// What the scene says of an output, as TOML.
+std::string keys_of(const Chosen<measure::Output>& output) {
+  auto copy = output;
+  TomlWriter writer;
+  copy->write(writer);
+  return writer.text();
+}
+
+/// These lines without those of some keys.
+std::string without(const std::string& lines, const std::vector<std::string>& keys) {
+  std::istringstream in(lines);
+  std::string left;
+  for (std::string line; std::getline(in, line);)
+    if (std::ranges::none_of(keys, [&](const auto& key) { return line.starts_with(key + " = "); }))
+      left.append(line).push_back('\n');
+  return left;
 }
 
 /// The engine, and on the way what observers know of its world.
@@ -47,10 +67,13 @@ Session::Session(const scene::Scene& scene, int threads, std::shared_ptr<io::Run
   last_step_ = std::max<std::int64_t>(1, std::llround(scene.duration / run_.time_step));
   for (const auto& output : scene.output) {
     if (!output->wanted()) continue;
+    Watch watch{output.word(), keys_of(output), output->may_change(), {}};
     for (auto& observer : output->make(run_)) {
       if (auto* series = dynamic_cast<measure::SeriesObserver*>(observer.get())) series_ = series;
+      watch.observers.push_back(observer.get());
       observers_.push_back(std::move(observer));
     }
+    watches_.push_back(std::move(watch));
   }
 }
 
@@ -92,16 +115,55 @@ void Session::write() const {
 void Session::save(std::ostream& out) const {
   engine_->save(out);
   StateOutput archive(out);
-  for (const auto& observer : observers_) observer->save(archive);
   if (run_.files) archive(*run_.files);
+  archive(watches_.size());
+  for (const auto& watch : watches_) {
+    std::ostringstream kept;
+    {
+      StateOutput inside(kept);
+      for (auto* observer : watch.observers) observer->save(inside);
+    }
+    archive(watch.word, watch.keys, kept.str());
+  }
 }
 
-void Session::load(std::istream& in) {
+std::vector<std::string> Session::load(std::istream& in) {
   engine_->restore(in);
   StateInput archive(in);
-  for (const auto& observer : observers_) observer->load(archive);
   if (run_.files) archive(*run_.files);
+  struct Kept {
+    std::string keys, bytes;
+  };
+  std::map<std::string, Kept> kept;
+  std::size_t count = 0;
+  archive(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::string word;
+    Kept one;
+    archive(word, one.keys, one.bytes);
+    kept[word] = std::move(one);
+  }
+  std::vector<std::string> told;
+  for (const auto& watch : watches_) {
+    const auto before = kept.find(watch.word);
+    if (before != kept.end() &&
+        without(before->second.keys, watch.may_change) == without(watch.keys, watch.may_change)) {
+      std::istringstream bytes(before->second.bytes);
+      StateInput inside(bytes);
+      for (auto* observer : watch.observers) observer->load(inside);
+    } else {
+      told.push_back(fmt::format("output.{}{} begins at t = {:.6g}, where the run goes on", watch.word,
+                                 before == kept.end() ? "" : " has other keys than before: it",
+                                 engine_->time()));
+      for (auto* observer : watch.observers) observer->look({*engine_, {}, {}});
+    }
+    if (before != kept.end()) kept.erase(before);
+  }
+  for (const auto& [word, one] : kept)
+    told.push_back(
+        fmt::format("output.{} ends at t = {:.6g}: its files stay as they are", word, engine_->time()));
   prepare();
+  return told;
 }
 
 }  // namespace chute::run

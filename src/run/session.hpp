@@ -38,13 +38,23 @@ class Session {
   /// The grains as a VTK file, for checkpoints.
   std::string grains() const { return io::grains_vtp(engine_->grains(), run_.facts, io::Packing::plain); }
   void save(std::ostream& out) const;
-  void load(std::istream& in);
+  /// Goes on from what was saved, by a session of the same scene or of one that differs in its outputs and duration.
+  /// Tells of outputs that begin here.
+  std::vector<std::string> load(std::istream& in);
 
  private:
+  /// An output of the scene, and who watches for it.
+  struct Watch {
+    std::string word, keys;  ///< its keys as TOML
+    std::vector<std::string> may_change;
+    std::vector<measure::Observer*> observers;
+  };
+
   measure::RunContext run_;
   std::unique_ptr<Engine> engine_;
   std::int64_t last_step_ = 1;
   std::vector<std::unique_ptr<measure::Observer>> observers_;
+  std::vector<Watch> watches_;
   measure::SeriesObserver* series_ = nullptr;
 
   void look();

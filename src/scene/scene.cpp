@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "scene/angle.hpp"
+#include "scene/choose_contact.hpp"
 #include "scene/world.hpp"
 
 namespace chute::scene {
@@ -253,21 +254,41 @@ static void check_output_count(const Scene& scene, const TomlReader& reader) {
   }
 }
 
-Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings) {
-  toml::table table = parse_toml(text, name);
-  for (const auto& setting : settings) set_by_path(table, setting);
+static Scene scene_of(const toml::table& table, const std::string& name) {
   TomlReader reader(table, name);
   if (table.contains("experiment"))
     reader.fail("experiment",
                 "an experiment is no flow down an incline; chute run, check and figure take it");
   Scene scene;
-  describe(reader, scene);
-  reader.finish();
+  reader.collect();
+  reader.know_elsewhere([] {
+    std::vector<std::string> names;
+    for (const auto& key : plain_keys()) names.push_back(key.key);
+    return names;
+  });
+  try {
+    describe(reader, scene);
+    reader.finish();
+  } catch (const SlipTold&) {
+    // told with the others
+  }
+  reader.throw_slips();
   const auto setting = setting_of(scene);
   if (!scene.engine->brings_grains()) laws::check_contact_time(scene.contact, setting.reference(), reader);
   if (const auto wrong = refusal_of(scene)) reader.fail(wrong->key, wrong->message);
   check_step_count(scene, setting, reader);
   check_output_count(scene, reader);
+  return scene;
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::vector<std::string>& settings) {
+  toml::table table = parse_toml(text, name);
+  for (const auto& setting : settings) set_by_path(table, setting);
+  auto chosen = choose_contact(table, [&](const toml::table& with) { return scene_of(with, name); });
+  auto scene = scene_of(table, name);
+  if (!table.contains("seed")) chosen.push_back(fmt::format("seed = {}", scene.seed));
+  if (!table.contains("units")) chosen.push_back("units = \"reduced\": m = g = d = 1, d the diameter of a bead");
+  scene.chosen = std::move(chosen);
   return scene;
 }
 

@@ -14,7 +14,7 @@ scene::Scene Base::scene(const std::vector<std::string>& more) const {
   settings.emplace_back("sweep=");  // the grid itself is no part of a run
   settings.insert(settings.end(), more.begin(), more.end());
   auto scene = scene::parse_scene(text, file.string(), settings);
-  scene.drop_outputs();
+  if (!outputs) scene.drop_outputs();
   return scene;
 }
 

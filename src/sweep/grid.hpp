@@ -14,6 +14,7 @@ struct Base {
   std::filesystem::path file;
   std::vector<std::string> set;
   std::string text;
+  bool outputs = false;  ///< of runs that are kept; else all but the series are left out
 
   /// InputError if the file cannot be read.
   explicit Base(std::filesystem::path scene_file, std::vector<std::string> settings = {});
@@ -21,7 +22,7 @@ struct Base {
   Base(std::filesystem::path scene_file, std::vector<std::string> settings, std::string content)
       : file(std::move(scene_file)), set(std::move(settings)), text(std::move(content)) {}
 
-  /// With further changes on top. All outputs but the series are left out: a sweep keeps none.
+  /// With further changes on top.
   scene::Scene scene(const std::vector<std::string>& more) const;
   Base with(const std::vector<std::string>& more) const;
 };

@@ -18,6 +18,10 @@ class PointStore {
 
   /// Nothing if the point is not there, is another build's, or cannot be read.
   std::optional<Followed> find(const scene::Scene& scene) const;
+  /// The name of a point's file.
+  std::string name_of(const scene::Scene& scene) const {
+    return file_of(scene::to_toml(scene)).filename().string();
+  }
   void put(const scene::Scene& scene, const Followed& outcome) const;
 
   /// The same points, and no others: `get` throws PointIsMissing instead of simulating.

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <concepts>
 #include <string>
+
+#include "common/keys.hpp"
 
 namespace chute::sweep {
 namespace {
@@ -12,15 +15,16 @@ constexpr double most_places = 1e6;  // runs that a sweep may ask for
 
 template <class Archive>
 void describe_axis(Archive& a, Axis& axis) {
-  a.required("key", axis.key);
-  a.value("values", axis.values);
-  if (Archive::reading || axis.values.empty()) {
-    a.value("from", axis.from);
-    a.value("to", axis.to);
-    a.value("count", axis.count, between(0, most_places));
-    a.value("quick_count", axis.quick_count, at_least(2));
+  constexpr bool all = !std::same_as<Archive, TomlWriter>;
+  a.required("key", axis.key, "the scene's key that changes");
+  a.value("values", axis.values, "its values, ascending");
+  if (all || axis.values.empty()) {
+    a.value("from", axis.from, "the first value, instead");
+    a.value("to", axis.to, "the last value");
+    a.value("count", axis.count, between(0, most_places), "of values, evenly");
+    a.value("quick_count", axis.quick_count, at_least(2), "of a quick figure");
   }
-  if (Archive::reading || !axis.unit.empty()) a.value("unit", axis.unit);
+  if (all || !axis.unit.empty()) a.value("unit", axis.unit, "of the values: angles have \"deg\"");
   a.check(axis.values.empty() != (axis.count < 2), axis.values.empty() ? "count" : "values",
           "give either values = [ … ] or from, to and count (at least 2)");
   a.check(axis.values.empty() ? axis.from < axis.to : std::ranges::is_sorted(axis.values),
@@ -30,9 +34,9 @@ void describe_axis(Archive& a, Axis& axis) {
 template <class Archive>
 void describe_boundary(Archive& a, BoundarySpec& spec) {
   a.required_section("axis", spec.axis);
-  a.required("tolerance", spec.tolerance, positive);
-  a.value("velocities", spec.velocities);
-  a.value("alike", spec.alike, Range{0, 1, true, true});
+  a.required("tolerance", spec.tolerance, positive, "boundaries are found to plus or minus half of this");
+  a.value("velocities", spec.velocities, "launches, slowest first; B needs them to end alike");
+  a.value("alike", spec.alike, Range{0, 1, true, true}, "difference of medians that counts as alike");
   a.check(std::ranges::is_sorted(spec.velocities), "velocities", "must ascend: slow starts first");
 }
 
@@ -55,8 +59,10 @@ void describe_sweep(Archive& a, SweepSpec& spec) {
 
 void describe(TomlReader& a, Axis& axis) { describe_axis(a, axis); }
 void describe(TomlWriter& a, Axis& axis) { describe_axis(a, axis); }
+void describe(KeyLister& a, Axis& axis) { describe_axis(a, axis); }
 void describe(TomlReader& a, BoundarySpec& spec) { describe_boundary(a, spec); }
 void describe(TomlWriter& a, BoundarySpec& spec) { describe_boundary(a, spec); }
+void describe(KeyLister& a, BoundarySpec& spec) { describe_boundary(a, spec); }
 void describe(TomlReader& a, SweepSpec& spec) { describe_sweep(a, spec); }
 void describe(TomlWriter& a, SweepSpec& spec) { describe_sweep(a, spec); }
 

@@ -6,6 +6,9 @@
 
 #include "common/toml_reader.hpp"
 
+namespace chute {
+class KeyLister;
+}
 namespace chute::sweep {
 
 /// One parameter of the grid: a key of the scene and its values.
@@ -23,6 +26,7 @@ struct Axis {
 };
 void describe(TomlReader& a, Axis& axis);
 void describe(TomlWriter& a, Axis& axis);
+void describe(KeyLister& a, Axis& axis);
 
 /// Which angles of the incline bound the phases: A, where grains stop; B, where they reach a steady velocity;
 /// C, where they do not (thesis 4.1).
@@ -34,6 +38,7 @@ struct BoundarySpec {
 };
 void describe(TomlReader& a, BoundarySpec& spec);
 void describe(TomlWriter& a, BoundarySpec& spec);
+void describe(KeyLister& a, BoundarySpec& spec);
 
 /// [sweep] of a scene: a grid of its keys, repeated seeds, and perhaps phase boundaries along one more key.
 struct SweepSpec {

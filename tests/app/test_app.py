@@ -77,7 +77,7 @@ class BadScenes(App):
         ("mean = 1.0", "mean = -1.0", r":10: grains\.diameter\.mean: -1 is not allowed, must be > 0"),
         ("restitution = 0.6", "restitution = 1.5",
          r":14: contact\.normal\.restitution: 1\.5 is not allowed, must be in \(0, 1\]"),
-        ("viscosity = 50\n", "", r":15: contact\.tangential\.viscosity: missing, but required"),
+        ("friction = 0.5\n", "", r":15: contact\.tangential\.friction: missing, but required"),
         ("[bed]", "[bed", r":6: not TOML: "),
         ("count = 6", "count = 6\ncount = 7", r":8: not TOML: "),
     ]

@@ -58,7 +58,7 @@ class Compare(Pictures):
         shutil.copy(self.golden("type"), self.path("b", "band.png"))
         shutil.copy(self.golden("type"), self.path("b"))
         said = self.call("compare", self.path("a"), self.path("b"), "--diff", self.path("d"), status=FAILED)
-        self.assertIn("2 of 3 pictures differ", said.stderr)
+        self.assertIn("2 of 3 files differ", said.stderr)
         self.assertIn("type.png: missing", said.stdout)
         self.assertEqual(os.listdir(self.path("d")), ["band.png"])
 

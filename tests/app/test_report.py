@@ -29,7 +29,7 @@ RUNS = {
     "event": TINY.replace("[run]", '[engine]\nmethod = "event"\n[run]'),
     "gas": TINY.replace("count = 6", 'kind = "none"').replace("[contact.normal]", "start = { spread = 1.0 }\n[contact.normal]")
            .replace("[grains]", "[domain]\nsize = [12, 12]\nperiodic = [\"x\", \"y\"]\n[grains]").replace('"18 deg"', '"0 deg"')
-           .replace('law = "coulomb-viscous"\nviscosity = 50\nfriction = 0.5', 'law = "frictionless"')
+           .replace('law = "coulomb-viscous"\nviscosity = 40\nfriction = 0.5', 'law = "frictionless"')
            .replace("[run]", '[engine]\nmethod = "monte-carlo"\ntemperature = 1.0\n[run]')
            .replace("duration = 2", "duration = 20").replace("every = 0.5", "every = 10"),
     "impact": """title = "One impact"

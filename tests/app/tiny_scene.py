@@ -16,7 +16,7 @@ stiffness = 1e4
 restitution = 0.6
 [contact.tangential]
 law = "coulomb-viscous"
-viscosity = 50
+viscosity = 40
 friction = 0.5
 [run]
 duration = 2

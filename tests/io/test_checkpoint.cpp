@@ -20,9 +20,9 @@ std::string saved(const Folder& folder) {
                        [](std::ostream& out) { out << state; });
   return content(folder / "checkpoint");
 }
-std::string refused(const Folder& folder, const std::string& bytes, const std::string& of = scene) {
+std::string refused(const Folder& folder, const std::string& bytes) {
   write(folder / "checkpoint", bytes);
-  return message<InputError>([&] { io::read_checkpoint(folder / "checkpoint", of); });
+  return message<InputError>([&] { io::read_checkpoint(folder / "checkpoint"); });
 }
 
 }  // namespace
@@ -30,11 +30,11 @@ std::string refused(const Folder& folder, const std::string& bytes, const std::s
 TEST_CASE("a checkpoint gives back what was saved") {
   const Folder folder;
   saved(folder);
-  CHECK(io::read_checkpoint(folder / "checkpoint", scene).state == state);
-  CHECK(io::read_checkpoint(folder / "checkpoint", scene).program == program);
+  CHECK(io::read_checkpoint(folder / "checkpoint").state == state);
+  CHECK(io::read_checkpoint(folder / "checkpoint").program == program);
   CHECK(io::read_checkpoint_grains(folder / "checkpoint") == grains);
   io::write_checkpoint(folder / "checkpoint", {scene, program}, grains, [](std::ostream&) {});
-  CHECK(io::read_checkpoint(folder / "checkpoint", scene).state.empty());
+  CHECK(io::read_checkpoint(folder / "checkpoint").state.empty());
 }
 
 TEST_CASE("empty arrays, which have no address, do not disturb the sum") {
@@ -45,7 +45,7 @@ TEST_CASE("empty arrays, which have no address, do not disturb the sum") {
     out << state;
     out.rdbuf()->sputn(nullptr, 0);
   });
-  CHECK(io::read_checkpoint(folder / "checkpoint", scene).state == state + state);
+  CHECK(io::read_checkpoint(folder / "checkpoint").state == state + state);
 }
 
 TEST_CASE("a checkpoint cut anywhere is refused in one line") {
@@ -74,18 +74,15 @@ TEST_CASE("a checkpoint with one flipped bit is refused in one line") {
     }
 }
 
-TEST_CASE("a checkpoint of another scene is refused") {
+TEST_CASE("a checkpoint tells whose it is") {
   const Folder folder;
-  const auto whole = saved(folder);
-  CHECK(refused(folder, whole, "title = \"another\"\n") ==
-        (folder / "checkpoint").string() + ": belongs to another scene");
-  CHECK(refused(folder, whole, scene + " ") ==
-        (folder / "checkpoint").string() + ": belongs to another scene");
+  saved(folder);
+  CHECK(io::read_checkpoint(folder / "checkpoint").scene == scene);
 }
 
 TEST_CASE("a missing checkpoint is an input error") {
   const Folder folder;
-  CHECK(message<InputError>([&] { io::read_checkpoint(folder / "none", scene); }) ==
+  CHECK(message<InputError>([&] { io::read_checkpoint(folder / "none"); }) ==
         (folder / "none").string() + ": cannot read: No such file or directory");
 }
 

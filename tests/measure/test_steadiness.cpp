@@ -175,3 +175,28 @@ TEST_CASE("verdicts have names") {
     CHECK(measure::verdict_named(measure::name(verdict)) == verdict);
   CHECK_FALSE(measure::verdict_named("steadily"));
 }
+
+TEST_CASE("ten units of time are no runaway, whatever happened in them") {
+  const auto bolts = [](double t, double duration) { return t < 0.8 * duration ? 2.0 : 2.0 + 5 * (t / duration - 0.8) * 10; };
+  const auto at = [&](double duration) {
+    return made([&](double t) { return bolts(t, duration); }, {}, duration).judged().verdict;
+  };
+  CHECK(at(400) == Verdict::runaway);
+  CHECK(at(10) == Verdict::unsettled);
+}
+
+TEST_CASE("rows that come more often from some time on do not change what became of a flow") {
+  for (const double late : {2.0, 6.0}) {  // steady, or another velocity in the second half
+    const auto v = [&](double t) { return t < 200 ? 2.0 : late; };
+    const auto even = made(v, {0.05, 1, 5});
+    const auto fine = made(v, {0.05, 1, 5}, 400, 4001);
+    Made mixed;
+    for (std::size_t row = 0; row < fine.time.size(); ++row) {
+      if (fine.time[row] < 300 && row % 10 != 0) continue;
+      mixed.time.push_back(fine.time[row]), mixed.x.push_back(fine.x[row]);
+      mixed.omega.push_back(fine.omega[row]), mixed.kinetic.push_back(fine.kinetic[row]);
+    }
+    CHECK(mixed.judged().verdict == even.judged().verdict);
+    CHECK(mixed.judged().v_x.mean == Approx(even.judged().v_x.mean).epsilon(0.02));
+  }
+}

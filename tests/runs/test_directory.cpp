@@ -35,7 +35,9 @@ TEST_CASE("an existing run is refused, resumed or replaced, as asked") {
             ": a run is already there; give --resume to go on with it, --force to replace it, or -o another");
   CHECK(tree(run) == before);
   CHECK(message<InputError>([&] { go(tiny({"seed=9"}), run, run::Existing::resume); }) ==
-        (run / "checkpoint").string() + ": belongs to another scene");
+        (run / "checkpoint").string() +
+            ": belongs to another scene: seed is 1 there, and 9 here; what may change is "
+            "run.duration, title and [output]");
   CHECK(tree(run) == before);
   go(tiny({"seed=9", "output.frames="}), run, run::Existing::replace);
   CHECK(tree(run).count("frames.pvd") == 0);  // nothing of the old run stays

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <algorithm>
 
 #include "common/error.hpp"
 #include "example.hpp"
@@ -88,12 +89,43 @@ TEST_CASE("a word that is not known is answered with the nearest one") {
 }
 
 TEST_CASE("what is required is said to be missing, at the table that lacks it") {
-  CHECK(refused("viscosity = 1000\n", "") ==
-        "scene.toml:18: contact.tangential.viscosity: missing, but required");
+  CHECK(refused("friction = 0.5\n", "") ==
+        "scene.toml:18: contact.tangential.friction: missing, but required");
   CHECK(refused("[run]\nduration = 400\n", "") == "scene.toml:1: run: missing, but required");
   CHECK(refused("\"reduced\"", "\"SI\"") ==
         "scene.toml:10: grains: density is missing; SI scenes need it (kg/m³)");
-  CHECK(refused(std::string()) == "scene.toml:1: incline: missing, but required");
+  CHECK(refused(std::string()) ==
+        "scene.toml:1: incline: missing, but required\nscene.toml:1: bed: missing, but required\n"
+        "scene.toml:1: grains: missing, but required\nscene.toml:1: contact: missing, but required\n"
+        "scene.toml:1: run: missing, but required");
+}
+
+TEST_CASE("several slips are told at once, each with its line, and none that follows from another") {
+  auto text = with("count = 30\n", "count = -30\n");
+  text = with("restitution = 0.6 ", "restitution = 1.6 ", text);
+  text = with("viscosity = 1000", "viscosty = 1000", text);
+  text = with("duration = 400", "duration = \"long\"", text);
+  text = with("bin = 1.0", "bins = 1.0", text);
+  CHECK(refused(text) ==
+        "scene.toml:9: bed.count: -30 is not allowed, must be in [3, 10000000]\n"
+        "scene.toml:17: contact.normal.restitution: 1.6 is not allowed, must be in (0, 1]\n"
+        "scene.toml:20: contact.tangential.viscosty: unknown key, did you mean viscosity?\n"
+        "scene.toml:27: run.duration: 'long' is not a number\n"
+        "scene.toml:30: output.profiles.bins: unknown key, did you mean bin?");
+  // Not more than ten.
+  std::string many = example;
+  for (int k = 0; k < 20; ++k) many = "nonsense_" + std::to_string(k) + " = 1\n" + many;
+  const auto said = refused(many);
+  CHECK(std::count(said.begin(), said.end(), '\n') == 9);
+  // A word that decides which keys there are is the last thing that can be said.
+  CHECK(refused(with("method = \"soft\"", "method = \"sfot\"", with("count = 30\n", "count = -30\n")))
+            .starts_with("scene.toml:23: engine.method: \"sfot\" is not known"));
+}
+
+TEST_CASE("a key outside of its table is answered with where it belongs") {
+  CHECK(refused("seed = 1", "gravity = 9.81") ==
+        "scene.toml:3: gravity: unknown key, did you mean incline.gravity?");
+  CHECK(refused("seed = 1", "friction = 0.3").starts_with("scene.toml:3: friction: unknown key"));
 }
 
 TEST_CASE("of two that exclude each other exactly one is wanted") {

@@ -170,3 +170,55 @@ TEST_CASE("the resolved scene reads back the same, in space and on every bed and
     CHECK(to_toml(parse(text)) == text);
   }
 }
+
+namespace {
+
+/// The example with its contacts replaced.
+std::string with_contact(const std::string& contact) {
+  const auto begin = example.find("[contact.normal]"), end = example.find("[engine]");
+  return example.substr(0, begin) + contact + example.substr(end);
+}
+scene::Scene parsed(const std::string& text, const std::vector<std::string>& settings = {}) {
+  return scene::parse_scene(text, "scene.toml", settings);
+}
+
+}  // namespace
+
+TEST_CASE("a restitution alone is a scene: what it leaves open is chosen, told, and right") {
+  const auto open = parsed(with_contact("[contact]\nnormal = { restitution = 0.6 }\n"));
+  const auto setting = scene::setting_of(open);
+  const auto contact = open.contact.laws(setting.reference());
+  const auto impact = laws::normal_impact(contact, 3, setting.reference());
+  CHECK(impact.restitution == Approx(0.6));
+  // Impacts of 3 √(gd), and of the fastest grain of the start, overlap by a hundredth of a diameter at most.
+  CHECK(setting.fastest > 3);
+  const auto fastest = laws::normal_impact(contact, setting.fastest, setting.reference());
+  CHECK(fastest.deepest < 0.01);
+  CHECK(fastest.deepest > 0.002);
+  const double dt = open.engine->step(setting);
+  for (const auto& fact : open.engine->facts(setting))
+    if (fact.name == "gamma_s dt 7/2m") {
+      CHECK(fact.value <= 0.08);
+      CHECK(fact.value > 0.03);
+    }
+  CHECK(dt > 0);
+  REQUIRE(open.chosen.size() == 3);
+  CHECK(open.chosen[0].starts_with("contact.normal.stiffness = "));
+  CHECK(open.chosen[1].starts_with("contact.tangential.viscosity = "));
+  CHECK(open.chosen[2] == "contact.tangential.friction = 0.5");
+  // The complete scene holds them, and leaves nothing open.
+  const auto again = parsed(scene::to_toml(open));
+  CHECK(scene::to_toml(again) == scene::to_toml(open));
+  CHECK(again.chosen.empty());
+}
+
+TEST_CASE("what a scene says is never chosen otherwise") {
+  const auto some = parsed(with_contact("[contact.normal]\nrestitution = 0.8\nstiffness = 2e5\n[contact.tangential]\nfriction = 0.3\n"));
+  CHECK(scene::to_toml(some).find("stiffness = 200000.0") != std::string::npos);
+  CHECK(scene::to_toml(some).find("friction = 0.3") != std::string::npos);
+  CHECK(some.chosen.size() == 1);
+  CHECK(parsed(example).chosen.empty());
+  const auto bare = parsed("[incline]\nangle=\"20 deg\"\n[bed]\ncount=20\n[grains]\ncount=50\ndiameter={mean=1}\n"
+                           "[run]\nduration=10\n[contact.normal]\nrestitution=0.5\n");
+  CHECK(bare.chosen.size() == 5);  // seed and units, too
+}

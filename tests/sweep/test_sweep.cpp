@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "../runs/make_engine.hpp"
 #include "common/error.hpp"
@@ -32,7 +33,10 @@ Base base() {
 
 bool go(const Base& what, const fs::path& folder, int jobs = 1, int shard = 1, int shards = 1,
         bool resume = false) {
-  SweepOptions options{folder, jobs, shard, shards, resume, [](double) { return true; }};
+  SweepOptions options;
+  options.directory = folder;
+  options.jobs = jobs, options.shard = shard, options.shards = shards, options.resume = resume;
+  options.progress = [](double) { return true; };
   return run_sweep(what, options);
 }
 
@@ -101,7 +105,7 @@ TEST_CASE("a sweep gives the same tables whatever the jobs and shards, resumed o
   CHECK(std::count(table.begin(), table.end(), '\n') == 2 + 1 + 4);
   CHECK(std::count(starts.begin(), starts.end(), '\n') == 2 + 1 + 4 * 2 * 3);
   // on the level line everything stops; at sin θ = 0.06 nothing does
-  CHECK_THAT(table, Catch::Contains("\n0,2.25,6,6,0,") && Catch::Contains("\n0.06,2.25,6,0,"));
+  CHECK_THAT(table, Catch::Contains(",0,2.25,6,6,0,") && Catch::Contains(",0.06,2.25,6,0,"));
 
   CHECK(go(base(), folder / "jobs", 3));
   CHECK(content(folder / "jobs/sweep.csv") == table);
@@ -133,7 +137,70 @@ TEST_CASE("a folder that holds something else is left alone") {
   CHECK_THROWS_WITH(go(base(), folder / "a"), Catch::Contains("--resume goes on with it"));
   auto changed = base();
   changed.set.push_back("run.duration=3");
-  CHECK_THROWS_WITH(go(changed, folder / "a", 1, 1, 1, true), Catch::Contains("holds another sweep"));
+  CHECK_THROWS_WITH(go(changed, folder / "a", 1, 1, 1, true),
+                    Catch::Contains("holds another sweep: run.duration is 2 there, and 3 here"));
+}
+
+TEST_CASE("a sweep that grows keeps what is done, and has the table of one made in one go") {
+  const Folder folder;
+  const auto with = [](const std::string& setting) {
+    auto grown = base();
+    grown.set.push_back(setting);
+    return grown;
+  };
+  const auto points = [&](const char* name) {
+    std::map<std::string, fs::file_time_type> found;
+    for (const auto& entry : fs::directory_iterator(folder / name / "points"))
+      found[entry.path().filename()] = fs::last_write_time(entry.path());
+    return found;
+  };
+  CHECK(go(base(), folder / "grown"));
+  const auto before = points("grown");
+  CHECK(before.size() == 8);
+  CHECK_THROWS_WITH(go(with("sweep.seeds=3"), folder / "grown"), Catch::Contains("--resume keeps"));
+  // One more value, one more seed, and one more axis, on which the scene's own value stands.
+  auto larger = with("sweep.seeds=3");
+  larger.set.push_back(
+      with_more_values(larger, {"incline.sin=0.03", "contact.tangential.friction=0.13,0.3"}));
+  CHECK(go(larger, folder / "grown", 1, 1, 1, true));
+  const auto after = points("grown");
+  CHECK(after.size() == 3 * 2 * 2 * 3);
+  for (const auto& [name, time] : before) {
+    REQUIRE(after.count(name) == 1);
+    CHECK(after.at(name) == time);
+  }
+  CHECK(go(larger, folder / "whole"));
+  CHECK(content(folder / "grown/sweep.csv") == content(folder / "whole/sweep.csv"));
+  const auto state = sweep_state(folder / "grown");
+  CHECK(state.points == 36);
+  CHECK(state.found == 36);
+  CHECK(state.table);
+  CHECK(std::accumulate(state.starts.begin(), state.starts.end(), std::size_t{0}) == 36 * 3);
+  // What is not swept may not change.
+  auto changed = larger;
+  changed.set.push_back("run.duration=3");
+  CHECK_THROWS_WITH(go(changed, folder / "grown", 1, 1, 1, true),
+                    Catch::Contains("holds another sweep: run.duration is 2 there, and 3 here"));
+}
+
+TEST_CASE("a sweep that keeps its runs says where they are, and what they are is in them") {
+  const Folder folder;
+  SweepOptions options;
+  options.directory = folder / "kept";
+  options.keep_runs = true;
+  options.progress = [](double) { return true; };
+  auto what = base();
+  what.set.insert(what.set.end(), {"sweep.seeds=1", "output.frames={every=1}"});
+  CHECK(run_sweep(what, options));
+  const fs::path one = folder / "kept/runs/incline.sin=0.06_grains.size_ratio=3_seed=1";
+  CHECK(fs::exists(one / "frames/000002.vtp"));
+  const auto table = content(folder / "kept/sweep.csv");
+  CHECK_THAT(table,
+             Catch::Contains("\nstopped,runs/incline.sin=0_grains.size_ratio=2.25_seed=1,0,2.25,3,3,"));
+  const auto flow = run::read_flow(one);
+  CHECK_THAT(table, Catch::Contains(std::string(measure::name(flow.verdict)) +
+                                    ",runs/incline.sin=0.06_grains.size_ratio=3_seed=1,0.06,3,3,"));
+  CHECK(sweep_state(folder / "kept").found == 4);
 }
 
 TEST_CASE("a wrong place of the grid is refused before anything is written") {

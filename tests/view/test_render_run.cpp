@@ -220,3 +220,25 @@ TEST_CASE("What cannot be drawn is said in one line") {
   }
   CHECK_FALSE(fs::exists(folder.path / "out/000001.png"));
 }
+
+TEST_CASE("a movie of a speed shows as much time, whatever lies between its frames") {
+  const Folder folder;
+  make_run(folder.path, 5);  // t = 0 … 2
+  auto job = job_for(folder, "pictures");
+  job.movie = folder.path / "m.png";
+  job.speed = 0.5, job.frames_per_second = 10;
+  CHECK_THROWS_WITH(view::render_run(job), Contains("--speed is of a movie"));
+  job.output.clear();
+  std::size_t pictures = 0;
+  job.progress = [&](const char* what, std::size_t, std::size_t all) {
+    if (std::string(what) == "drawing") pictures = all;
+  };
+  view::render_run(job);
+  CHECK(pictures == 41);  // two units of time in four seconds, both ends shown
+  CHECK(fs::exists(job.movie));
+  job.speed = 4;
+  view::render_run(job);
+  CHECK(pictures == 6);
+  job.speed = -1;
+  CHECK_THROWS_WITH(view::render_run(job), Contains("must be > 0"));
+}

@@ -163,6 +163,15 @@ void SoftEngine<D>::back_to_ids() {
   forces(0);
 }
 
+/// What an overlap that is too deep comes from: a contact that a step passes over is not one that is too soft.
+template <int D>
+std::string SoftEngine<D>::why_so_deep() const {
+  constexpr double fewest = 5;  // steps in a contact, as engine.steps_per_contact has it
+  const double steps = setup_.contact_time / setup_.time_step;
+  if (steps >= fewest) return "stiffness is too low for these velocities";
+  return fmt::format("the time step is {:.2g} of a contact time, which needs {} steps or more", 1 / steps, fewest);
+}
+
 template <int D>
 void SoftEngine<D>::check_overlaps() const {
   for_contacts([&](const Contacts<D>& contacts, std::size_t c) {
@@ -173,9 +182,9 @@ void SoftEngine<D>::check_overlaps() const {
     if (depth > setup_.deepest_overlap)
       leave_physics(
           i,
-          fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): stiffness is too low for "
-                      "these velocities",
-                      wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap));
+          fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): {}",
+                      wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap,
+                      why_so_deep()));
   });
 }
 

@@ -108,6 +108,7 @@ class SoftEngine final : public Engine {
   void back_to_ids();
   std::vector<std::int32_t> places() const;
   void tilt();
+  std::string why_so_deep() const;
   void check_overlaps() const;
   void find_impacts();
   void remember_touching();

@@ -31,7 +31,10 @@ class SoftMethod final : public Described<engines::Method, SoftMethod> {
   Offers offers() const override;
   std::optional<Refusal> refusal(const engines::Setting& setting) const override;
   double step(const engines::Setting& setting) const override;
+  std::vector<std::string> warnings(const engines::Setting& setting) const override;
   std::vector<Fact> facts(const engines::Setting& setting) const override;
+  /// Part of gravity's work by which the energy account of a dense flow is off, for a decay of slip in one step; measured.
+  double expected_residual(double decay) const;
   double seconds_per_step(const engines::Setting& setting) const override;
   std::unique_ptr<Engine> make(World<2> world, const engines::Setting& setting, int threads) const override;
   std::unique_ptr<Engine> make(World<3> world, const engines::Setting& setting, int threads) const override;

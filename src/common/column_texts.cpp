@@ -1,0 +1,234 @@
+#include "common/column_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace chute {
+namespace {
+
+// Units in SI and with m = g = d = 1.
+struct Unit {
+  const char *si, *reduced;
+};
+constexpr Unit none{"", ""}, length{"m", "d"}, time{"s", "sqrt(d/g)"}, speed{"m/s", "sqrt(gd)"},
+    spin{"rad/s", "sqrt(g/d)"}, energy{"J", "mgd"}, angle{"rad", "rad"}, degree{"deg", "deg"},
+    spread{"m²/s", "sqrt(g d³)"}, square{"m²", "d²"}, temperature{"m²/s²", "gd"}, force{"N", "mg"}, mass{"kg", "m"},
+    // In the plane stresses are forces per length and densities masses per area.
+    stress{"Pa (2D: N/m)", "mg/d² (2D: mg/d)"}, density{"kg/m³ (2D: kg/m²)", "m/d³ (2D: m/d²)"},
+    impulse{"N s", "m sqrt(gd)"}, rate{"1/m", "1/d"}, per_speed{"s/m", "1/sqrt(gd)"};
+
+ColumnText column(const char* name, Unit unit, const char* meaning) {
+  return {name, meaning, unit.si, unit.reduced};
+}
+
+constexpr const char* blocks = "standard error from the scatter of ten blocks of the time window (standard deviation of their means over √10)";
+constexpr const char* starts_error = "standard error of the mean over the steady starts; of a single start, from twelve stretches of its time, "
+                                     "enlarged where neighbouring stretches are correlated";
+
+std::vector<ColumnText> layer_columns() {
+  return {column("h", length, "height above the centres of the bed; of profiles the middle of a layer"),
+          column("grains", none, "mean number of grains whose centre lies in the layer"),
+          column("eta", none, "area fraction (3D: volume fraction) of the grains whose centre lies in the layer"),
+          column("eta_exact", none, "the same of the parts of grains that lie in the layer"),
+          column("v_*", speed, "mean velocity: x downhill, away from the bed y in the plane and z in space, y then across"),
+          column("sigma_*", speed, "standard deviation of that velocity component in the layer, in time and from grain to grain"),
+          column("temperature", temperature, "mean of the squared deviations from the layer's mean velocity, over the dimensions, of a mass of 1"),
+          column("omega", spin, "mean spin, > 0 when rolling downhill"),
+          column("half_shear", spin, "half of dv_x/dh, from the layers above and below; ω of grains that roll on one another"),
+          column("kinetic_*", stress, "kinetic stress: momentum along the first letter carried along the second by fluctuations; > 0 is pressure"),
+          column("contact_*", stress, "contact stress, of forces times branches; > 0 is pressure"),
+          column("density", density, "mass of the moving grains per volume"),
+          column("coordination", none, "mean number of contacts of a grain")};
+}
+
+std::vector<TableText> all_tables() {
+  return {
+      {"series.csv", "an output time", "",
+       {column("time", time, "since the start; shakes, sweeps or updates where the method counts those"),
+        column("shakes", none, "shakes made, of packings"), column("sweeps", none, "Monte Carlo sweeps made"),
+        column("updates", none, "updates of a lattice made"),
+        column("x", length, "mean place of the moving grains along the incline, counted on through the periods; > 0 downhill"),
+        column("v_*", speed, "mean velocity of the moving grains: x > 0 downhill"),
+        column("omega", spin, "mean spin, > 0 when rolling downhill (angular_velocity in VTK files counts anticlockwise)"),
+        column("contacts", none, "pairs that touch now, those with the bed among them"),
+        column("translation", energy, "½ Σ m v² of the moving grains"), column("rotation", energy, "½ Σ I ω²"),
+        column("elastic", energy, "stored in contacts now"),
+        column("gravity_work", energy, "what gravity put in since the start, Σ m g·(way)"),
+        column("normal_loss", energy, "taken by normal contact forces since the start"),
+        column("shear_loss", energy, "taken by friction since the start"),
+        column("wall_work", energy, "what moving walls put in since the start"),
+        column("projection_work", energy, "potential energy put in by moving pressed hard grains out of each other"),
+        column("residual", energy, "what the account does not explain: works − change of the stored energies − losses; < 0: energy came from nowhere"),
+        column("angle", degree, "of an incline that is tilted"),
+        column("sliding_share", none, "contact dynamics: share of the pressed contacts that slide"),
+        column("iterations", none, "of the solver in the last step"),
+        column("residual_of_solver", none, "in the last step, in the unit of engine.tolerance"),
+        column("mean_iterations", none, "of all steps so far"), column("most_iterations", none, "of a step so far"),
+        column("worst_residual", none, "of a step so far"),
+        column("unconverged", none, "steps that used up engine.iterations"),
+        column("collisions", none, "collisions so far"),
+        column("collisions_put_off", none, "of these such as a step had no room for"),
+        column("deepest_overlap", none, "of pressed hard grains so far, in diameters"),
+        column("packing_fraction", none, "φ of the bulk; empty where nothing bounds it sideways"),
+        column("mean_height", length, "of the moving grains' centres"),
+        column("tracer", length, "height of the largest grain's centre; of equal ones, of the first"),
+        column("sweeps_made", none, "in all shakes"), column("acceptance", none, "share of trial moves that were made"),
+        column("trial_length", none, "δ, in mean diameters"),
+        column("coordination", none, "contacts of a grain"), column("events", none, "rolls and drops of a grain in the last shake")}},
+      {"profiles.csv", "a layer", blocks, layer_columns()},
+      {"profiles_fine.csv", "a fine layer", blocks, layer_columns()},
+      {"fields.csv", "a height", blocks, layer_columns()},
+      {"impact_histograms.csv", "a bin", blocks,
+       {column("pair", none, "whom moving grains hit: grain-grain, grain-bed, all"),
+        column("quantity", none, "gamma, v_n, or mean_v_n: the mean |v_n| at each γ"),
+        column("x", none, "middle of the bin, in the unit of the quantity; γ modulo π in rad"),
+        column("value", none, "probability density, integral 1; of mean_v_n a velocity")}},
+      {"pairs.csv", "a distance", blocks,
+       {column("r", none, "distance of centres over the sum of the radii"), column("g", none, "pair distribution function")}},
+      {"pressure.csv", "the one row", blocks,
+       {column("phi", none, "packing fraction"), column("g_contact", none, "g at contact, extrapolated"),
+        column("Z", none, "β P/n of hard grains of one size")}},
+      {"velocities.csv", "a sample of a grain", "",
+       {column("time", time, "of the sample"), column("grain", none, "its id"), column("v_*", speed, "its velocity: x > 0 downhill")}},
+      {"velocity_histograms.csv", "a bin of a component", "",
+       {column("component", none, "x, y or z"), column("v", speed, "middle of the bin"),
+        column("density", per_speed, "probability density")}},
+      {"diffusion.csv", "a length of time", blocks,
+       {column("time", time, "length of the pieces"), column("pieces", none, "how many"),
+        column("square_x", square, "mean square of the way along, about the mean drift"),
+        column("square_y", square, "mean square of the way across")}},
+      {"diffusion_coefficients.csv", "the one row", blocks,
+       {column("v_x", speed, "mean drift"), column("D_x", spread, "(4.65)"), column("D_y", spread, "(4.66)"),
+        column("from_x", time, "from which length of pieces on the mean square over 2t stays within a quarter of D_x"),
+        column("from_y", time, "the same of D_y"), column("longest", time, "piece")}},
+      {"beads.csv", "a visit of a grain to a bead", "",
+       {column("grain", none, "its id"), column("bead", none, "the bead's id"), column("time", time, "of the first impact"),
+        column("v_n_first", speed, "normal velocity before the first impact, < 0 on approach"),
+        column("v_n_last", speed, "after the last; 0 where the grain rolled off"),
+        column("rolled", none, "1: it rolled off"), column("hits", none, "impacts"),
+        column("stay", time, "from the first onset to that on the next new bead"),
+        column("contact", time, "to the end of the last contact")}},
+      {"trapping.csv", "a grain", "",
+       {column("grain", none, "its id"), column("stopped", none, "1: it came to rest"),
+        column("time", time, "when; or the end of the run"), column("x", length, "where, in the domain"),
+        column("y", length, "where, across"), column("way", length, "downhill, so far")}},
+      {"trapping_rate.csv", "the one row", "√stopped over way (Poisson)",
+       {column("grains", none, "that moved at trapping.from"), column("stopped", none, "of these"),
+        column("way", length, "downhill of all together"), column("rate", rate, "stops a length of way")}},
+      {"starting.csv", "a grain", "",
+       {column("grain", none, "its id"), column("rested", none, "1: it lay still for 50 √(d/g)"),
+        column("started", none, "1: it then left its place"), column("time", time, "when"),
+        column("angle", degree, "of the incline then")}},
+      {"bed_neighbours.csv", "a pair of neighbouring beads", "", {column("delta_x", length, "distance of their surfaces")}},
+      {"bed_vertices.csv", "a Voronoi vertex of the bed", "", {column("delta_x", length, "distance from the nearest beads' surfaces")}},
+      {"forces.csv", "a bin", blocks,
+       {column("force", none, "normal force over the mean of its instant (and layer)"),
+        column("density", none, "probability density")}},
+      {"moments.csv", "a time", "",
+       {column("time", time, "since the start"), column("temperature", energy, "⟨m c²⟩/D about the mean velocity"),
+        column("a_2", none, "fourth cumulant, 0 of a Maxwellian")}},
+      {"heights.csv", "a grain", blocks, {column("grain", none, "its id"), column("height", length, "mean of its centre")}},
+      {"avalanches.csv", "a size", "",
+       {column("size", none, "topplings after one grain was added"), column("count", none, "avalanches so large")}},
+      {"sweep.csv", "a place of the grid, behind the columns of the axes", starts_error,
+       {column("verdict", none, "that most of its starts have"), column("runs", none, "where they are, in the sweep's folder"),
+        column("starts", none, "how many"), column("stopped", none, "of these"), column("steady", none, "of these"),
+        column("accelerating", none, "of these"), column("runaway", none, "of these"), column("unsettled", none, "of these"),
+        column("v_x", speed, "mean over the steady starts, > 0 downhill"),
+        column("v_x_median", speed, "median over all that still move; error from the median deviation"),
+        column("omega", spin, "mean over the steady starts, > 0 when rolling downhill"),
+        column("kinetic", temperature, "energy of motion per mass, mean over the steady starts")}},
+      {"starts.csv", "a start, with the columns of the axes", "standard error from twelve stretches of the time, enlarged where neighbouring stretches are correlated",
+       {column("verdict", none, "what became of it"), column("run", none, "where it is, in the sweep's folder"),
+        column("seed", none, "of its run"), column("start", none, "number of the grain in its run"),
+        column("from", time, "from when on its means count"), column("v_x", speed, "way over time, > 0 downhill"),
+        column("omega", spin, "mean spin, > 0 when rolling downhill"), column("kinetic", temperature, "energy of motion per mass")}},
+      {"boundaries.csv", "a place of the grid, behind the columns of the axes", "half of the bracket that is left",
+       {column("AB", none, "where A, stopping, ends, in the unit of the key; empty: not within the range"),
+        column("BC", none, "where B, a steady state that forgets its start, ends")}},
+      {"figure", "a point of a figure", "as the figure's comments say",
+       {column("panel", none, "of the figure"), column("series", none, "name of the curve"),
+        column("x", none, "as the comment \"x:\" says"), column("y", none, "as the comment \"y:\" says")}},
+      {"frames/*.vtp", "a grain, beads of the bed behind the moving ones", "",
+       {column("id", none, "the same in all frames"), column("type", none, "0 fixed, 1 moving"),
+        column("material", none, "species"), column("radius", length, "R"), column("mass", mass, "m"),
+        column("velocity", speed, "x downhill, away from the bed y in the plane and z in space"),
+        column("angular_velocity", spin, "anticlockwise in the plane: < 0 when rolling downhill (omega in tables is > 0 then)"),
+        column("angle", angle, "turned since the start, anticlockwise"),
+        column("orientation", none, "in space: quaternion w, x, y, z"), column("force", force, "sum of all contact forces and gravity")}},
+      {"contacts/*.vtp", "a contact, a line between the centres of a and b", "",
+       {column("a", none, "id of a moving grain"), column("b", none, "id of the other; wall k is −1 − k"),
+        column("point", length, "where they touch"), column("normal", none, "unit vector from a to b"),
+        column("branch", length, "from a's centre to b's"), column("overlap", length, "of soft grains"),
+        column("force", force, "on a; of hard grains the impulse over the time between frames"),
+        column("normal_force", force, "> 0 pushes apart"),
+        column("shear_force", force, "along the tangent (in the plane the normal turned by +90°)"),
+        column("state", none, "0 not known, 1 sticks, 2 slides"), column("normal_impulse", impulse, "of a step"),
+        column("shear_impulse", impulse, "of a step"), column("mobilisation", none, "|F_s|/(μ F_n)")}},
+      {"impacts.vtp", "an impact, where the surfaces met", "",
+       {column("time", time, "of its begin"),
+        column("gamma", angle, "from the incline's normal, > 0 on the downhill side of the bead"),
+        column("phi", angle, "azimuth about the normal; 0 in the plane"), column("v_n", speed, "normal velocity, < 0 on approach"),
+        column("v_t", speed, "translation along the surface"), column("flight", time, "since the grain last lost touch"),
+        column("gamma_before", angle, "of the same grain's impact before"),
+        column("rolling", none, "1: the same two parted less than 4 contact times ago"), column("bead", none, "id of the grain that was hit"),
+        column("grain", none, "id of the grain that hit")}},
+  };
+}
+
+bool stands_for(const std::string& pattern, std::string_view name) {
+  if (!pattern.ends_with('*')) return pattern == name;
+  return name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1));
+}
+
+std::string units_of(const ColumnText& c) {
+  return c.si.empty() ? "" : c.si == c.reduced ? c.si : c.si + "; " + c.reduced;
+}
+
+}  // namespace
+
+const std::vector<TableText>& table_texts() {
+  static const auto tables = all_tables();
+  return tables;
+}
+
+std::optional<ColumnText> column_text(const TableText& table, std::string_view name) {
+  constexpr std::string_view suffix = "_err";
+  const bool error = !table.error.empty() && name.ends_with(suffix);
+  const auto of = error ? name.substr(0, name.size() - suffix.size()) : name;
+  for (const auto& column : table.columns)
+    if (stands_for(column.name, of)) {
+      auto found = column;
+      found.name = std::string(name);
+      if (error) found.meaning = fmt::format("of {}: {}", of, table.error);
+      return found;
+    }
+  return {};
+}
+
+const TableText* find_table_text(std::string_view file, const std::vector<std::string>& columns) {
+  const auto& tables = table_texts();
+  const auto named = std::ranges::find(tables, file, &TableText::file);
+  if (named != tables.end()) return &*named;
+  const auto knows_all = std::ranges::find_if(tables, [&](const TableText& table) {
+    return std::ranges::all_of(columns, [&](const auto& c) { return column_text(table, c).has_value(); });
+  });
+  return knows_all == tables.end() ? nullptr : &*knows_all;
+}
+
+std::string column_tables() {
+  std::string text;
+  for (const auto& table : table_texts()) {
+    text += fmt::format("\n**`{}`**: a row is {}.{}\n\n| column | meaning | unit (SI; reduced) |\n|---|---|---|\n", table.file,
+                        table.rows, table.error.empty() ? "" : " `…_err`: " + table.error + ".");
+    for (const auto& c : table.columns) {
+      auto meaning = c.meaning;
+      for (std::size_t at = 0; (at = meaning.find('|', at)) != meaning.npos; at += 2) meaning.insert(at, "\\");
+      text += fmt::format("| `{}` | {} | {} |\n", c.name, meaning, units_of(c));
+    }
+  }
+  return text;
+}
+
+}  // namespace chute

@@ -1,0 +1,192 @@
+"""A physicist's day, by the commands of the README: test_working_day.py CHUTE SOURCES. Each task of its section "A working day" is run
+as it stands, in one folder; then it is looked at what came of it."""
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+chute, sources = sys.argv[1:3]
+
+
+def tasks():
+    """The commands of each task, in order."""
+    with open(os.path.join(sources, "README.md"), encoding="utf-8") as readme:
+        section = readme.read().split("\n## A working day\n")[1].split("\n## ")[0]
+    return re.findall(r"\n```sh\n(.*?)\n```", section, re.DOTALL)
+
+
+def table(path):
+    with open(path, encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+class WorkingDay(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        os.mkdir(os.path.join(cls.folder, "bin"))
+        os.symlink(os.path.abspath(chute), os.path.join(cls.folder, "bin", "chute"))
+        environment = dict(os.environ, PATH=os.path.join(cls.folder, "bin") + ":" + os.environ["PATH"])
+        cls.said = []
+        for commands in tasks():
+            done = subprocess.run(["bash", "-e", "-c", commands], cwd=cls.folder, env=environment, capture_output=True,
+                                  text=True, timeout=600)
+            cls.said.append(done)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def good(self, task):
+        """What a task said, which ended well."""
+        done = self.said[task - 1]
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done
+
+    def test_0_all_tasks_stand_in_the_readme(self):
+        self.assertEqual(len(self.said), 8)
+
+    def test_1_own_flow_with_three_seeds(self):
+        done = self.good(1)
+        self.assertIn("# chosen: contact.normal.stiffness = ", done.stdout)
+        self.assertIn("chosen: contact.tangential.viscosity = ", done.stderr)
+        self.assertRegex(done.stderr, r"run: the energy account closes to \S+ %: good")
+        self.assertIn("overlay.toml: ", done.stdout)  # --check
+        for seed in "123":
+            with open(self.path("out", "flow-" + seed, "run.json"), encoding="utf-8") as file:
+                self.assertEqual(json.load(file)["energy"]["verdict"], "good")
+        rows = table(self.path("out", "figures", "overlay.csv"))
+        self.assertEqual({row["series"] for row in rows}, {"seed 1", "seed 2", "seed 3", "law", "a model"})
+        model = [row for row in rows if row["series"] == "a model"]
+        self.assertEqual(len(model), 200)
+        self.assertAlmostEqual(float(model[-1]["y"]), 0.3 * (1 - 2.718281828459045 ** -2))
+        profile = table(self.path("out", "flow-2", "profiles.csv"))
+        drawn = [row for row in rows if row["series"] == "seed 2"]
+        self.assertEqual([row["y"] for row in drawn], [row["v_x"] for row in profile if row["v_x"]])
+        with open(self.path("out", "figures", "overlay.svg"), encoding="utf-8") as file:
+            picture = file.read().lower()
+        self.assertIn("#c00000", picture)
+        self.assertIn('width="86mm"', picture)
+        with open(self.path("out", "figures", "overlay.pdf"), "rb") as file:
+            self.assertEqual(file.read(5), b"%PDF-")
+
+    def test_2_a_film_in_slow_motion(self):
+        self.good(2)
+        with open(self.path("out", "slow.gif"), "rb") as file:
+            self.assertEqual(file.read(4), b"GIF8")
+
+    def test_3_a_phase_diagram(self):
+        done = self.good(3)
+        self.assertRegex(done.stdout, r"# cost of all ")
+        places = table(self.path("out", "figures", "diagram.csv"))
+        self.assertEqual(len(places), 20)
+        self.assertLessEqual({row["series"] for row in places},
+                             {"stopped", "steady", "accelerating", "runaway", "unsettled"})
+        self.assertGreater(len({row["series"] for row in places}), 1)
+
+    def test_4_spheres_of_another_program(self):
+        self.assertIn("3 points", self.good(4).stdout)
+        self.assertTrue(os.path.exists(self.path("out", "dump", "000000.png")))
+
+    def test_5_columns_are_told(self):
+        said = self.good(5).stdout
+        self.assertRegex(said, r"v_x_err +sqrt\(gd\) +of v_x: standard error")
+        self.assertRegex(said, r"angular_velocity +sqrt\(g/d\) +anticlockwise")
+        self.assertNotIn("not known", said)
+        self.assertIn("v_x at the end:", said)
+
+    def test_6_pictures_and_tables_are_compared(self):
+        done = self.said[5]
+        if "install librsvg2-bin" in done.stderr or "install poppler-utils" in done.stderr:
+            self.skipTest(done.stderr.strip())
+        self.assertEqual(self.good(6).stdout.count("same"), 4)
+
+    def test_7_runs_and_sweeps_grow(self):
+        done = self.good(7)
+        self.assertIn("the flow is ", done.stdout)
+        self.assertIn("24 of 24 points are there", done.stdout)
+        times = [float(row["time"]) for row in table(self.path("out", "flow-1", "series.csv"))]
+        self.assertAlmostEqual(times[-1], 50)
+        self.assertEqual(len(times), 501)
+        self.assertTrue(os.path.exists(self.path("out", "flow-1", "frames", "000120.vtp")))  # 81 + 40
+        quench = table(self.path("out", "quench", "series.csv"))
+        self.assertLess(abs(float(quench[-1]["v_x"])), 0.05)  # on the level it stops
+        self.assertGreater(float(quench[0]["v_x"]), 0.05)
+
+    def test_8_a_page_of_slips(self):
+        lines = self.good(8).stderr.splitlines()
+        self.assertEqual([line.split(": ")[1] for line in lines],
+                         ["slips.toml:5", "slips.toml:7", "slips.toml:10", "slips.toml:12", "slips.toml:1"])
+        self.assertIn("did you mean incline.gravity?", lines[-1])
+
+
+class Compare(unittest.TestCase):
+    """Budgets and tolerances do what they say."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return os.path.join(self.folder, name)
+
+    def compare(self, *words):
+        return subprocess.run([chute, "compare", *words], capture_output=True, text=True)
+
+    def test_tables(self):
+        a = self.write("a.csv", "# then\nname,x,y\none,1,2\ntwo,3,\n")
+        self.assertEqual(self.compare(a, self.write("b.csv", "# now\nname,x,y\none,1,2\ntwo,3,\n")).returncode, 0)
+        near = self.write("c.csv", "name,x,y\none,1.0001,2\ntwo,3,\n")
+        said = self.compare(a, near)
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("different: 1 of 6 cells, the worst in line 2, x: 1 and 1.0001", said.stdout)
+        self.assertEqual(self.compare(a, near, "--rtol", "1e-3").returncode, 0)
+        self.assertEqual(self.compare(a, near, "--atol", "2e-4").returncode, 0)
+        self.assertEqual(self.compare(a, near, "--rtol", "1e-5").returncode, 1)
+        for other, says in (("name,x,y\none,1,2\ntwo,3,7\n", "1 of 6 cells"), ("name,x,y\none,1,2\n", "1 rows, expected 2"),
+                            ("name,x,z\none,1,2\ntwo,3,\n", "column y is missing"),
+                            ("name,x,y\none,1,2\nthree,3,\n", "name: two and three")):
+            said = self.compare(a, self.write("d.csv", other), "--rtol", "1")
+            self.assertEqual(said.returncode, 1, other)
+            self.assertIn(says, said.stdout)
+        whole = json.loads(self.compare(a, near, "--json").stdout)
+        self.assertEqual((whole["different"], whole["pictures"][0]["over"]), (1, 1))
+
+    def test_budgets(self):
+        golden = os.path.join(sources, "golden")
+        a, b = (os.path.join(golden, name + ".png") for name in ("frame-discs", "frame-chains"))
+        n = json.loads(self.compare(a, b, "--json").stdout)["pictures"][0]
+        for budget, holds in ((("--max-pixels", str(n["over"])), True), (("--max-pixels", str(n["over"] - 1)), False),
+                              (("--max-pixels", "100%"), True), (("--max-pixels", "0.001%"), False),
+                              (("--rms", str(n["rms"] + 1e-6)), True), (("--rms", str(n["rms"] * 0.9)), False),
+                              (("--ssim", str(n["ssim"] - 1e-6)), True), (("--ssim", "0.99999"), False)):
+            self.assertEqual(self.compare(a, b, *budget).returncode, 0 if holds else 1, budget)
+        self.assertEqual(self.compare(a, b, "--max-pixels", "many").returncode, 2)
+
+    def test_a_program_that_is_not_there_is_named_with_its_package(self):
+        drawing = self.write("a.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="10" height="10"/>')
+        said = subprocess.run([chute, "compare", drawing, drawing], capture_output=True, text=True,
+                              env=dict(os.environ, PATH=self.folder))
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("is drawn by rsvg-convert, which is not here: install librsvg2-bin", said.stderr)
+
+
+class Keys(unittest.TestCase):
+    def test_the_readme_has_the_keys_of_recipes_and_the_columns(self):
+        with open(os.path.join(sources, "README.md"), encoding="utf-8") as readme:
+            text = readme.read()
+        for words in (["figure", "--keys"], ["info", "--columns"]):
+            printed = subprocess.run([chute, *words], capture_output=True, text=True).stdout.strip()
+            self.assertGreater(len(printed), 3000)
+            self.assertIn(printed, text, "put what `chute %s` prints into README.md" % " ".join(words))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
