@@ -43,8 +43,8 @@ struct Series {
   bool hollow = false;  ///< its markers are hollow and not joined: points that averages do not vouch for
   // Automatic where absent: counted through the orders of style.hpp
   std::optional<int> color, marker, dash;
-  std::optional<Color> ink;               ///< a colour of its own in place of one of those
-  std::optional<double> width, size;      ///< of its line and its markers, in points
+  std::optional<Color> ink;           ///< a colour of its own in place of one of those
+  std::optional<double> width, size;  ///< of its line and its markers, in points
 };
 
 /// A line that is no data: y = x, an axis, a limit.

@@ -51,7 +51,8 @@ class Builder {
     Figure figure;
     figure.source = recipe_.source;
     figure.width = recipe_.width, figure.height = recipe_.height, figure.aspect = recipe_.aspect;
-    figure.style = recipe_.style, figure.changes = recipe_.changes, figure.columns = static_cast<int>(recipe_.columns);
+    figure.style = recipe_.style, figure.changes = recipe_.changes,
+    figure.columns = static_cast<int>(recipe_.columns);
     figure.share_x = recipe_.share_x, figure.share_y = recipe_.share_y, figure.legend = recipe_.legend;
     figure.own_ranges = recipe_.own_ranges;
     for (const auto& word : recipe_.words) figure.words.emplace_back(word.name, word.label);

@@ -70,8 +70,7 @@ void read_ordinal(Archive& a, std::string_view key, int& target, std::span<const
 std::optional<Color> color_from(const std::string& text) {
   if (text.size() != 7 && text.size() != 4) return {};
   std::string digits = text.substr(1);
-  if (digits.size() == 3)
-    digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
+  if (digits.size() == 3) digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
   std::uint32_t rgb = 0;
   const char* end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, rgb, 16);
@@ -79,7 +78,8 @@ std::optional<Color> color_from(const std::string& text) {
   return Color::hex(rgb);
 }
 
-constexpr const char* color_form = "is no colour: write \"#c00000\", red, green and blue in hexadecimal digits";
+constexpr const char* color_form =
+    "is no colour: write \"#c00000\", red, green and blue in hexadecimal digits";
 
 void read_color(TomlReader& a, std::string_view key, std::optional<Color>& target, const char* words) {
   std::optional<std::string> text;

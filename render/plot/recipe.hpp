@@ -145,8 +145,9 @@ struct PlotRecipe {
   std::optional<double> height;
   std::optional<double> aspect;
   Style style = Style::journal;
-  StyleChanges changes;                       ///< [style] of the recipe; set by whoever reads the file
-  std::map<std::string, std::string> labels;  ///< of series that the recipe gives none; set by whoever has the table
+  StyleChanges changes;  ///< [style] of the recipe; set by whoever reads the file
+  std::map<std::string, std::string>
+      labels;  ///< of series that the recipe gives none; set by whoever has the table
   std::int64_t columns = 0;
   bool share_x = false, share_y = false, own_ranges = false;
   Legend legend = Legend::automatic;

@@ -36,7 +36,8 @@ bool only_names(const read::PointArray& array) {
                              [&](const auto& field) { return field.name == array.name; });
 }
 
-void turn(read::PointArray& array, const read::PointArray& later, std::span<const std::size_t> where, double part) {
+void turn(read::PointArray& array, const read::PointArray& later, std::span<const std::size_t> where,
+          double part) {
   for (std::size_t i = 0; i < where.size(); ++i) {
     const auto quaternion = [](const read::PointArray& of, std::size_t k) {
       return Eigen::Quaterniond(of.at(k, 0), of.at(k, 1), of.at(k, 2), of.at(k, 3));

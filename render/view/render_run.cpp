@@ -93,7 +93,8 @@ struct Moment {
 };
 
 /// The moments of a film that shows `speed` of simulated time a second, from the first of these frames to the last.
-std::vector<Moment> moments_of(const std::vector<std::size_t>& numbers, const Survey& survey, const RenderJob& job) {
+std::vector<Moment> moments_of(const std::vector<std::size_t>& numbers, const Survey& survey,
+                               const RenderJob& job) {
   std::vector<Moment> moments;
   if (job.speed == 0) {
     for (const auto number : numbers) moments.push_back({number});
@@ -104,7 +105,8 @@ std::vector<Moment> moments_of(const std::vector<std::size_t>& numbers, const Su
   constexpr double most = 1e6;
   const double count = std::floor((end - begin) / between * (1 + 1e-12)) + 1;
   if (!(count <= most))
-    throw InputError(fmt::format("speed {}: makes {:.2g} pictures, more than {:.0e}", job.speed, count, most));
+    throw InputError(
+        fmt::format("speed {}: makes {:.2g} pictures, more than {:.0e}", job.speed, count, most));
   std::size_t frame = numbers.front();
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const double time = std::min(end, begin + static_cast<double>(k) * between);
@@ -124,7 +126,11 @@ class FrameDrawer {
  public:
   FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey,
               const Beside& beside)
-      : job_(job), frames_(frames), survey_(survey), beside_(beside), wanted_(wanted_arrays(job.style, job.speed > 0)) {
+      : job_(job),
+        frames_(frames),
+        survey_(survey),
+        beside_(beside),
+        wanted_(wanted_arrays(job.style, job.speed > 0)) {
     Hash common;
     add_part(common, beside.hash);
     add_part(common, fmt::format("drawing {} {} {} {}", drawing_version, job.style.describe(),
@@ -170,18 +176,15 @@ class FrameDrawer {
     auto frame = read::parse_frame(std::move(files), job_.meanings, wanted_);
     double time = survey_.times[number];
     if (moment.part > 0) {
-      frame = between(frame, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_), moment.part);
+      frame = between(frame, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_),
+                      moment.part);
       time += moment.part * (survey_.times[number + 1] - time);
     }
     const auto links =
         network.empty() ? std::vector<read::ForceLink>() : read::parse_network(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
     for (std::size_t i = oldest; i < number; ++i) trail.push_back(&earlier_[i - first_earlier_].frame);
-    FrameData data{.frame = frame,
-                   .time = time,
-                   .links = links,
-                   .earlier = trail,
-                   .walls = beside_.walls};
+    FrameData data{.frame = frame, .time = time, .links = links, .earlier = trail, .walls = beside_.walls};
     data.impacts = std::span(beside_.impacts).first(moment.part > 0 ? beside_.until(time) : impacts);
     if (!survey_.path.empty()) {
       data.focus = survey_.path[number];

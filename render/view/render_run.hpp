@@ -25,7 +25,8 @@ struct RenderJob {
   std::filesystem::path output;  ///< folder for NNNNNN.png; empty: no pictures are kept
   std::filesystem::path movie;   ///< .mp4, .webm, .mov, .gif or .png; empty: none
   double frames_per_second = 25;
-  double speed = 0;  ///< of a movie: simulated time in a second of it, drawn between frames where needed; 0: a frame a picture
+  double speed =
+      0;  ///< of a movie: simulated time in a second of it, drawn between frames where needed; 0: a frame a picture
   FrameRange frames;
   int jobs = 1;                   ///< processes that draw at once
   read::Meanings meanings;        ///< what arrays of other programs' files are

@@ -48,8 +48,8 @@ TableComparison compare_tables(const std::filesystem::path& expected, const std:
       if (x[row] == y[row] || (std::isnan(x[row]) && std::isnan(y[row]))) continue;
       const double allowed = atol + rtol * std::abs(x[row]), off = std::abs(x[row] - y[row]);
       if (off <= allowed) continue;
-      differs(std::isfinite(off) ? off / std::max(allowed, std::numeric_limits<double>::min()) : infinite, row, name,
-              a[row], b[row]);
+      differs(std::isfinite(off) ? off / std::max(allowed, std::numeric_limits<double>::min()) : infinite,
+              row, name, a[row], b[row]);
     }
   }
   return found;

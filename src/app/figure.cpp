@@ -102,8 +102,8 @@ const Computation& find_computation(const std::string& name, const fs::path& rec
 }
 
 /// The rows of one source of a figure.
-figures::FigureTable table_of(const figures::DataRecipe& data, const fs::path& file, const fs::path& directory,
-                              const figures::FigureContext& context,
+figures::FigureTable table_of(const figures::DataRecipe& data, const fs::path& file,
+                              const fs::path& directory, const figures::FigureContext& context,
                               const std::function<bool(double)>& progress) {
   if (data.table) return figures::rows_of_table(data.columns, file.parent_path() / *data.table);
   if (data.formula) return figures::rows_of_formula(*data.formula);
@@ -266,7 +266,8 @@ std::string figure_keys() {
     const auto table = dot == key.key.npos ? std::string() : key.key.substr(0, dot);
     if (dot != key.key.npos) key.key = key.key.substr(dot + 1);
     // Axes look the same everywhere.
-    if (table.starts_with("plot.") && table != "plot.x" && (table.ends_with(".x") || table.ends_with(".y"))) continue;
+    if (table.starts_with("plot.") && table != "plot.x" && (table.ends_with(".x") || table.ends_with(".y")))
+      continue;
     auto found = std::ranges::find(tables, table, &std::pair<std::string, std::vector<KeyText>>::first);
     if (found == tables.end()) found = tables.insert(found, {table, {}});
     const bool again = std::ranges::any_of(found->second, [&](const auto& k) { return k.key == key.key; });

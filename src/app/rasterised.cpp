@@ -59,7 +59,8 @@ image::Image drawn(const fs::path& file, std::vector<std::string> words, const c
   read_file(file);  // says what is wrong with it in chute's own words
   const int status = run_program(words);
   if (status < 0)
-    throw WorkError(fmt::format("{}: is drawn by {}, which is not here: install {}", file.string(), words[0], package));
+    throw WorkError(
+        fmt::format("{}: is drawn by {}, which is not here: install {}", file.string(), words[0], package));
   if (status != 0 || !fs::exists(picture))
     throw InputError(fmt::format("{}: {} cannot draw it", file.string(), words[0]));
   return image::read_png(picture);
@@ -76,15 +77,16 @@ image::Image read_picture(const fs::path& file) {
   if (file.extension() == ".pdf") {
     const Scratch scratch;
     return drawn(file,
-                 {"pdftoppm", "-png", "-r", resolution, "-singlefile", fs::absolute(file).string(), (scratch.path / "page").string()},
+                 {"pdftoppm", "-png", "-r", resolution, "-singlefile", fs::absolute(file).string(),
+                  (scratch.path / "page").string()},
                  "poppler-utils", scratch.path / "page.png");
   }
   if (file.extension() == ".svg") {
     const Scratch scratch;
     const auto picture = scratch.path / "drawing.png";
     return drawn(file,
-                 {"rsvg-convert", "--dpi-x", resolution, "--dpi-y", resolution, "--background-color", "white", "-o",
-                  picture.string(), fs::absolute(file).string()},
+                 {"rsvg-convert", "--dpi-x", resolution, "--dpi-y", resolution, "--background-color", "white",
+                  "-o", picture.string(), fs::absolute(file).string()},
                  "librsvg2-bin", picture);
   }
   return image::read_png(file);

@@ -54,7 +54,8 @@ Budget budget_of(const CompareArguments& a) {
   if (a.max_pixels.empty()) return budget;
   const bool percent = a.max_pixels.ends_with('%');
   constexpr const char* expected = "a number of pixels, or a part of them such as 0.1%";
-  const auto values = numbers("--max-pixels", a.max_pixels.substr(0, a.max_pixels.size() - percent), ':', expected);
+  const auto values =
+      numbers("--max-pixels", a.max_pixels.substr(0, a.max_pixels.size() - percent), ':', expected);
   require(values.size() == 1 && values[0] >= 0, "--max-pixels", a.max_pixels, expected);
   if (percent)
     budget.share = values[0] / 100;
@@ -87,7 +88,8 @@ std::vector<Pair> pairs_of(const CompareArguments& a) {
     names.merge(files_in(a.actual[0]));
     for (const auto& name : names)
       pairs.push_back({name.string(), expected / name, fs::path(a.actual[0]) / name, difference(name)});
-    if (pairs.empty()) throw InputError(a.expected + ": no pictures (PNG, PDF, SVG) and no tables (CSV) in these folders");
+    if (pairs.empty())
+      throw InputError(a.expected + ": no pictures (PNG, PDF, SVG) and no tables (CSV) in these folders");
     return pairs;
   }
   for (const auto& actual : a.actual) {
@@ -117,8 +119,8 @@ Outcome compare(const Pair& pair, const CompareArguments& a, bool both_must_be) 
   for (const auto* file : {&pair.expected, &pair.actual})
     if (!both_must_be && !fs::exists(*file)) return {pair.name, file->string()};
   if (is_table(pair.expected) != is_table(pair.actual))
-    throw InputError(fmt::format("{} and {}: a picture and a table cannot be compared", pair.expected.string(),
-                                 pair.actual.string()));
+    throw InputError(fmt::format("{} and {}: a picture and a table cannot be compared",
+                                 pair.expected.string(), pair.actual.string()));
   if (is_table(pair.expected)) {
     Outcome outcome{pair.name, ""};
     outcome.table = compare_tables(pair.expected, pair.actual, a.rtol, a.atol);
@@ -191,11 +193,11 @@ void run(const CompareArguments& a) {
 void add_compare(CLI::App& app) {
   auto* verb = app.add_subcommand("compare", "Compare pictures and tables, or folders of them");
   auto a = std::make_shared<CompareArguments>();
-  verb->add_option("expected", a->expected, "a picture (PNG, PDF, SVG), a table (CSV), or a folder of them")->required();
-  verb->add_option(
-          "actual", a->actual,
-          "what to compare with it: a file, a folder, or several files if `expected` is a folder "
-          "that holds one of each name")
+  verb->add_option("expected", a->expected, "a picture (PNG, PDF, SVG), a table (CSV), or a folder of them")
+      ->required();
+  verb->add_option("actual", a->actual,
+                   "what to compare with it: a file, a folder, or several files if `expected` is a folder "
+                   "that holds one of each name")
       ->required();
   verb->add_option(
       "--diff", a->difference,

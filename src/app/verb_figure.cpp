@@ -75,7 +75,8 @@ void add_figure(CLI::App& app) {
   verb->add_flag("--quick", a->quick, "a cheaper simulation: shorter, fewer points");
   verb->add_flag("--list", a->list, "list the figures that are known");
   verb->add_flag("--keys", a->keys, "print every key that a recipe can have, with what it means");
-  verb->add_flag("--check", a->check, "say whether the recipes are right and what they would take; write nothing");
+  verb->add_flag("--check", a->check,
+                 "say whether the recipes are right and what they would take; write nothing");
   verb->add_option("--jobs", a->jobs, "simulations side by side; results do not depend on it")
       ->check(CLI::Range(1, 1024));
   verb->add_flag(

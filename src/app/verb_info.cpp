@@ -122,8 +122,8 @@ void show_progress(const Json& record, const fs::path& path) {
 void show_account(const Json& record) {
   if (!record.contains("energy")) return;
   const auto& energy = record["energy"];
-  fmt::print("the energy account is off by {:.2g} % of what was turned over: {}\n", 100 * energy["part"].get<double>(),
-             text_of(energy["verdict"]));
+  fmt::print("the energy account is off by {:.2g} % of what was turned over: {}\n",
+             100 * energy["part"].get<double>(), text_of(energy["verdict"]));
 }
 
 void show_run(const Json& run, const fs::path& path) {
@@ -192,17 +192,20 @@ void columns(const fs::path& path) {
     for (const auto& array : found["arrays"])
       if (array["where"] != "field") names.push_back(text_of(array["name"]));
   } else {
-    throw InputError(path.string() + ": --columns tells of a table or a VTK file; chute info " + path.string() +
-                     " names those of a run");
+    throw InputError(path.string() + ": --columns tells of a table or a VTK file; chute info " +
+                     path.string() + " names those of a run");
   }
   const auto* table = find_table_text(path.filename().string(), names);
-  if (!table) throw InputError(path.string() + ": not a file as chute writes them: what its columns mean is not known");
-  const bool si = kind == "vtk" ? found["texts"].value("units", "") == "SI" : comments.find("units: SI") != comments.npos;
+  if (!table)
+    throw InputError(path.string() + ": not a file as chute writes them: what its columns mean is not known");
+  const bool si =
+      kind == "vtk" ? found["texts"].value("units", "") == "SI" : comments.find("units: SI") != comments.npos;
   fmt::print("{}: a row is {}\n", path.string(), table->rows);
   for (const auto& name : names) {
     const auto column = column_text(*table, name);
     const auto unit = !column ? std::string() : si ? column->si : column->reduced;
-    fmt::print("  {:<18} {:<22} {}\n", name, unit, column ? column->meaning : "not known: an axis of the sweep, or another program's");
+    fmt::print("  {:<18} {:<22} {}\n", name, unit,
+               column ? column->meaning : "not known: an axis of the sweep, or another program's");
   }
 }
 
@@ -226,7 +229,8 @@ void add_info(CLI::App& app) {
     bool json = false, verify = false, columns = false;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_option("path", a->path, "run directory, folder of a sweep, VTK file, dump of LAMMPS, XYZ file or CSV table");
+  verb->add_option("path", a->path,
+                   "run directory, folder of a sweep, VTK file, dump of LAMMPS, XYZ file or CSV table");
   verb->add_flag("--columns", a->columns,
                  "what the columns of a table or the arrays of a VTK file mean; without a file: of all");
   auto* json = verb->add_flag("--json", a->json, "for programs: keys as in README.md");

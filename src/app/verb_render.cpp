@@ -260,9 +260,10 @@ void add_render(CLI::App& app) {
       "--movie", a->movie,
       "make a movie: .mp4 (H.264), .webm (VP9), .mov (ProRes), .gif or .png (animated); needs ffmpeg");
   verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
-  verb->add_option("--speed", a->speed,
-                   "simulated time in a second of the movie: 0.25 is slow motion in reduced units; what lies between frames "
-                   "is drawn between them; default a frame a picture")
+  verb->add_option(
+          "--speed", a->speed,
+          "simulated time in a second of the movie: 0.25 is slow motion in reduced units; what lies between frames "
+          "is drawn between them; default a frame a picture")
       ->check(CLI::PositiveNumber);
   verb->add_option("--color", a->color,
                    "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "

@@ -83,8 +83,10 @@ void run(const RunArguments& arguments) {
         options.directory.string(), options.directory.string());
   if (const auto& account = result.account) {
     if (account->poor())
-      tell("warning: the energy account is off by {:.3g} % of what was turned over: do not trust this run; smaller steps "
-           "(engine.steps_per_contact) or softer friction (contact.tangential.viscosity) help\n", 100 * account->part);
+      tell(
+          "warning: the energy account is off by {:.3g} % of what was turned over: do not trust this run; smaller steps "
+          "(engine.steps_per_contact) or softer friction (contact.tangential.viscosity) help\n",
+          100 * account->part);
     else if (!arguments.quiet)
       tell("run: the energy account closes to {:.2g} %: {}\n", 100 * std::abs(account->part), account->word);
   }

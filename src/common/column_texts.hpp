@@ -9,8 +9,8 @@
 namespace chute {
 
 struct ColumnText {
-  std::string name;     ///< of the column; `kinetic_*` stands for all that begin so
-  std::string meaning;  ///< with its sign
+  std::string name;         ///< of the column; `kinetic_*` stands for all that begin so
+  std::string meaning;      ///< with its sign
   std::string si, reduced;  ///< unit; empty for pure numbers
 };
 

@@ -17,7 +17,8 @@ struct FigureRow {
 struct FigureTable {
   std::vector<std::string> comments;
   std::vector<FigureRow> rows;
-  std::map<std::string, std::string> labels{};  ///< in the legend, of series whose label is not that of their name
+  std::map<std::string, std::string>
+      labels{};  ///< in the legend, of series whose label is not that of their name
 };
 
 struct FigureContext {

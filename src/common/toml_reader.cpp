@@ -214,7 +214,8 @@ void TomlReader::missing(std::string_view key) const {
     if (std::find(known_.begin(), known_.end(), other.str()) != known_.end()) continue;
     const auto hint = nearest(other.str(), known_);
     if (!hint.empty() && !has(hint))
-      return slip_line(path(other.str()), where(&node) + path(other.str()) + ": unknown key, did you mean " + hint + "?");
+      return slip_line(path(other.str()),
+                       where(&node) + path(other.str()) + ": unknown key, did you mean " + hint + "?");
   }
   slip(key, "missing, but required");
 }
@@ -304,7 +305,8 @@ void TomlReader::value(std::string_view key, std::vector<std::string>& target, T
   if (!array) return slip(key, fmt::format("{} is not a list of texts", shown(*node)));
   target.clear();
   for (const toml::node& item : *array) {
-    if (!item.is_string()) return slip(key, fmt::format("{} in the list is not a text in quotes", shown(item)));
+    if (!item.is_string())
+      return slip(key, fmt::format("{} in the list is not a text in quotes", shown(item)));
     target.push_back(*item.value<std::string>());
   }
 }
@@ -330,7 +332,8 @@ void TomlReader::value(std::string_view key, std::vector<std::vector<double>>& t
 int TomlReader::choose(std::string_view key, int current, std::span<const std::string_view> words) {
   know(key);
   if (!has(key)) return current;
-  if (!table_->get(key)->is_string()) fail(key, fmt::format("{} is not a text in quotes", shown(*table_->get(key))));
+  if (!table_->get(key)->is_string())
+    fail(key, fmt::format("{} is not a text in quotes", shown(*table_->get(key))));
   const std::string word = *table_->get(key)->value<std::string>();
   for (std::size_t i = 0; i < words.size(); ++i)
     if (words[i] == word) return static_cast<int>(i);
@@ -377,10 +380,9 @@ void TomlReader::finish() const {
           hint = name;
           break;
         }
-    slip_line(path(key.str()),
-              where(&node) + path(key.str()) + ": unknown key" +
-                  (hint.empty() ? fmt::format(", known: {}", fmt::join(known_, ", "))
-                                : fmt::format(", did you mean {}?", hint)));
+    slip_line(path(key.str()), where(&node) + path(key.str()) + ": unknown key" +
+                                   (hint.empty() ? fmt::format(", known: {}", fmt::join(known_, ", "))
+                                                 : fmt::format(", did you mean {}?", hint)));
   }
 }
 

@@ -25,7 +25,8 @@ static void describe(Archive& a, ExperimentCurve& curve) {
   a.value("set", curve.set, "key=value for its scene, on top of the recipe's");
   a.value("quick", curve.quick, "and with --quick");
   a.value("quantity", curve.quantity, "instead of the recipe's");
-  a.value("by_curvature", curve.smooth, "that of the recipe for this curve alone, such as a closed form beside points");
+  a.value("by_curvature", curve.smooth,
+          "that of the recipe for this curve alone, such as a closed form beside points");
   a.value("values", curve.values, "of the varied key, instead of the recipe's");
   a.value("power_law", curve.power_law, "instead of experiments: 1 − y = a x^p with this p");
   if (all || curve.power_law)
@@ -45,7 +46,8 @@ static void describe_keys(Archive& a, ExperimentRecipe& recipe) {
   a.choice("spacing", recipe.spacing, spacing_words, "of the values between");
   a.value("count", recipe.count, between(2, 100000), "of values");
   a.value("quick_count", recipe.quick_count, between(2, 100000), "of a quick figure");
-  a.value("by_curvature", recipe.by_curvature, "and further values wherever the curves bend, whatever --quick says");
+  a.value("by_curvature", recipe.by_curvature,
+          "and further values wherever the curves bend, whatever --quick says");
   a.value("more", recipe.more, "further values");
   a.required("quantity", recipe.quantity, "on the y axis: a result, as chute run prints them");
   a.required("x", recipe.x, "what x is, with its unit: a comment of the CSV");

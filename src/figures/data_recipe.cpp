@@ -54,7 +54,8 @@ static void describe(Archive& a, Curve& curve) {
   if (all || scatter || table) a.required("against", curve.against, "scatter, table: the column for x");
   if (all || scatter) a.value("absolute_x", curve.absolute_x, "scatter: the absolute value of `against`");
   if (all || histogram || scatter)
-    a.value("file", curve.file, "a CSV file of the run; default its impacts; required for value, mean, table");
+    a.value("file", curve.file,
+            "a CSV file of the run; default its impacts; required for value, mean, table");
   else if (value || table)
     a.required("file", curve.file);
   if (all || histogram || scatter || mean) a.sections("where", curve.where);
@@ -94,7 +95,8 @@ static void describe(Archive& a, Curve& curve) {
     a.value("widest", curve.widest, positive, "peak: a wider cluster is no peak; default any");
   }
   if (all || is_point_by_point(curve.extract)) {
-    a.required("vary", curve.vary, "peak, last, pressure, value, mean, rate, record: the key along the curve");
+    a.required("vary", curve.vary,
+               "peak, last, pressure, value, mean, rate, record: the key along the curve");
     a.required("values", curve.values, "what it is, point by point");
     a.check(!curve.values.empty(), "values", "must hold at least one value");
     a.value("quick_count", curve.quick_count, at_least(2), "so many of them are enough for a quick figure");

@@ -97,14 +97,14 @@ struct DataRecipe {
   std::optional<std::string> compute;  ///< instead: a computation that is no run of a scene, by name
   std::vector<experiments::ExperimentRecipe> experiments;  ///< instead: results of experiments
   bool runs = false;                                       ///< instead: every curve names its `runs`
-  std::optional<std::string> table;  ///< instead: a CSV file, relative to the recipe
-  TableColumns columns;              ///< of it
-  std::optional<FormulaCurve> formula;  ///< instead: a line
-  std::vector<std::string> set;      ///< key=value for every run
-  std::vector<std::string> quick;    ///< and with --quick
-  std::int64_t seeds = 1, quick_seeds = 1;  ///< runs per curve, with seeds 1, 2, …
-  std::string x, y;                         ///< what x and y are, with units: comments of the CSV
-  std::vector<std::string> notes;           ///< further comments
+  std::optional<std::string> table;                        ///< instead: a CSV file, relative to the recipe
+  TableColumns columns;                                    ///< of it
+  std::optional<FormulaCurve> formula;                     ///< instead: a line
+  std::vector<std::string> set;                            ///< key=value for every run
+  std::vector<std::string> quick;                          ///< and with --quick
+  std::int64_t seeds = 1, quick_seeds = 1;                 ///< runs per curve, with seeds 1, 2, …
+  std::string x, y;                ///< what x and y are, with units: comments of the CSV
+  std::vector<std::string> notes;  ///< further comments
   std::vector<Curve> curves;
   std::vector<SweepCurve> sweeps;  ///< [[data.sweep]]: curves made from many runs
   std::vector<Fit> fits;           ///< [[data.fit]]: laws put through series that are there

@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Dense>
-#include <unsupported/Eigen/NonLinearOptimization>
-#include <unsupported/Eigen/NumericalDiff>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <unsupported/Eigen/NonLinearOptimization>
+#include <unsupported/Eigen/NumericalDiff>
 
 #include "common/error.hpp"
 #include "common/keys.hpp"
@@ -229,7 +229,8 @@ void draw_formula(const Fit& fit, const std::vector<FitPoint>& points, const std
                   FigureTable& table) {
   const auto fitted = fit_formula(fit, points);
   if (!fitted) {
-    table.comments.push_back(what + fmt::format("{} does not go through {} points", fit.expression, points.size()));
+    table.comments.push_back(what +
+                             fmt::format("{} does not go through {} points", fit.expression, points.size()));
     return;
   }
   std::vector<std::string> told;

@@ -25,7 +25,7 @@ struct Fit {
   std::string expression;
   std::vector<std::string> start;  ///< NAME=VALUE, one for each parameter
   bool legend = false;             ///< the constants with their errors stand in the legend
-  std::vector<double> factors;  ///< power: of each series a factor F, such as a size ratio: y = c x^k F^n
+  std::vector<double> factors;     ///< power: of each series a factor F, such as a size ratio: y = c x^k F^n
   std::optional<std::vector<double>> range;  ///< only points with x in it, [low, high]
 };
 void describe(TomlReader& a, Fit& fit);

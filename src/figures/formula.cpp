@@ -39,7 +39,8 @@ Formula::Formula(Formula&&) noexcept = default;
 
 double Formula::at(double x, const std::vector<double>& values) const {
   state_->x = x;
-  std::ranges::copy_n(values.begin(), static_cast<std::ptrdiff_t>(std::min(values.size(), state_->values.size())),
+  std::ranges::copy_n(values.begin(),
+                      static_cast<std::ptrdiff_t>(std::min(values.size(), state_->values.size())),
                       state_->values.begin());
   return state_->parser.Eval();
 }

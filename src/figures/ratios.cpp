@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/keys.hpp"
+
 namespace chute::figures {
 namespace {
 

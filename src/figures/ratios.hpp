@@ -6,6 +6,9 @@
 #include "common/figure_table.hpp"
 #include "common/toml_reader.hpp"
 
+namespace chute {
+class KeyLister;
+}
 namespace chute::figures {
 
 /// Series divided by others, so that what lies on one curve, or near a theory, can be told apart. [[data.ratio]]

@@ -29,7 +29,8 @@ void describe_columns(Archive& a, TableColumns& columns) {
   a.value("series", columns.series, "name of the series; default the y column's");
   a.value("by", columns.by, "a column: a series for each of its values, numbers or texts such as verdicts");
   a.value("x", columns.x, "column of x");
-  a.value("y", columns.y, "column of y; left out: the table has the columns of a figure (panel, series, x, y …)");
+  a.value("y", columns.y,
+          "column of y; left out: the table has the columns of a figure (panel, series, x, y …)");
   a.value("x_err", columns.x_err, "column of the error of x");
   a.value("y_err", columns.y_err, "column of the error of y");
   a.sections("where", columns.where);
@@ -39,7 +40,8 @@ template <class Archive>
 void describe_formula(Archive& a, FormulaCurve& curve) {
   a.value("panel", curve.panel, "of the line");
   a.required("series", curve.series, "its name");
-  a.required("expression", curve.expression, "a formula of x for a line, read by muParser: \"0.3*(1-exp(-x/2))\"");
+  a.required("expression", curve.expression,
+             "a formula of x for a line, read by muParser: \"0.3*(1-exp(-x/2))\"");
   a.required("range", curve.range, "[low, high] of x");
   a.value("logarithmic", curve.logarithmic, "places evenly spaced in ln x");
   a.value("points", curve.points, between(2, 100000), "of the line");
@@ -110,7 +112,8 @@ FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::pa
     const auto word = columns.by->substr(columns.by->rfind('.') + 1);
     const bool number = table.is_number(*columns.by);
     for (std::size_t i = 0; i < names.size(); ++i)
-      names[i] = (columns.series.empty() ? "" : columns.series + " ") + (number ? word + "=" : "") + values[i];
+      names[i] =
+          (columns.series.empty() ? "" : columns.series + " ") + (number ? word + "=" : "") + values[i];
   }
   std::vector<bool> counts(x.size(), true);
   for (const auto& filter : columns.where) {
@@ -145,7 +148,8 @@ FigureTable rows_of_formula(const FormulaCurve& curve) {
   for (std::int64_t k = 0; k < curve.points; ++k) {
     const double part = static_cast<double>(k) / static_cast<double>(curve.points - 1);
     const double x = curve.logarithmic ? low * std::pow(high / low, part) : low + part * (high - low);
-    if (const double y = formula.at(x); std::isfinite(y)) made.rows.push_back({curve.panel, curve.series, x, y});
+    if (const double y = formula.at(x); std::isfinite(y))
+      made.rows.push_back({curve.panel, curve.series, x, y});
   }
   if (made.rows.empty())
     throw InputError(fmt::format("expression: \"{}\" has no value in [{}, {}]", curve.expression, low, high));

@@ -23,8 +23,8 @@ struct RowFilter {
 /// How the columns of any table become rows of a figure: `y = "v_x"`. Without `y` the table has a figure's columns already.
 struct TableColumns {
   std::string panel;
-  std::string series;                   ///< the series' name, default that of the y column
-  std::optional<std::string> by;        ///< a column: a series for each of its values, in the order of the table
+  std::string series;             ///< the series' name, default that of the y column
+  std::optional<std::string> by;  ///< a column: a series for each of its values, in the order of the table
   std::string x = "time", y;
   std::optional<std::string> x_err, y_err;
   std::vector<RowFilter> where;

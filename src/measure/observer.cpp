@@ -13,7 +13,8 @@ std::vector<std::string> RunContext::comments(std::string what) const {
 std::vector<std::string> RunContext::average_note(const std::optional<double>& from, const Flow& flow) const {
   if (from || !std::isfinite(flow.from)) return {};
   const bool settled = flow.verdict == Verdict::steady || flow.verdict == Verdict::stopped;
-  if (settled) return {fmt::format("averages from t = {:.6g} on, when the flow was {}", flow.from, name(flow.verdict))};
+  if (settled)
+    return {fmt::format("averages from t = {:.6g} on, when the flow was {}", flow.from, name(flow.verdict))};
   return {fmt::format("no steady state was found (the flow is {}): averages from t = {:.6g} on all the same",
                       name(flow.verdict), flow.from)};
 }

@@ -136,8 +136,7 @@ class PairObserver final : public Remembering<PairObserver> {
     const double start = from_.value_or(flow.from);
     auto comments = run_.comments("pair distribution g of moving grains against r, in units of R_i + R_j");
     for (auto& line : run_.average_note(from_, flow)) comments.push_back(std::move(line));
-    io::Csv csv(comments,
-                {"r", "g", "g_err"});
+    io::Csv csv(comments, {"r", "g", "g_err"});
     for (const auto& row : pairs_.result(start)) csv.row({row.r, row.g.mean, row.g.error});
     run_.write("pairs.csv", csv.text());
     const auto contact = pairs_.contact(start);

@@ -41,7 +41,8 @@ void write_record(const std::filesystem::path& file, const RunRecord& r,
   if (!r.why.empty()) json["why"] = r.why;
   if (flow) json["flow"] = to_json(*flow);
   if (r.account)
-    json["energy"] = {{"residual", r.account->residual}, {"part", r.account->part}, {"verdict", r.account->word}};
+    json["energy"] = {
+        {"residual", r.account->residual}, {"part", r.account->part}, {"verdict", r.account->word}};
   if (r.tilting) {
     const auto degrees = [](const std::optional<double>& angle) {
       return angle ? nlohmann::ordered_json(*angle) : nlohmann::ordered_json();

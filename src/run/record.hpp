@@ -23,10 +23,10 @@ struct RunRecord {
   double time_step = 0, time = 0, duration = 0;
   double left = 0;             ///< seconds that it will still take, about, while it is running; 0: not known
   std::string clock = "time";  ///< what `time` counts
-  std::optional<measure::TurningAngles> tilting{};  ///< of an incline that is tilted meanwhile
-  std::string end = "running", why{};               ///< `why` is left out if empty
+  std::optional<measure::TurningAngles> tilting{};   ///< of an incline that is tilted meanwhile
+  std::string end = "running", why{};                ///< `why` is left out if empty
   std::optional<measure::AccountVerdict> account{};  ///< of the energy
-  io::FileSums files{};                             ///< what each file that was written holds
+  io::FileSums files{};                              ///< what each file that was written holds
 
   /// This moment in universal time, 2026-01-31T12:00:00Z.
   static std::string now();

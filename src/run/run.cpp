@@ -55,7 +55,11 @@ class Run {
     if (finished) directory_.finish();
     // A bar on a terminal ends full, however short the run was.
     if (finished && options_.progress) options_.progress(1);
-    return {finished, engine().step() - first, engine().grains().moving, took.count(), account(),
+    return {finished,
+            engine().step() - first,
+            engine().grains().moving,
+            took.count(),
+            account(),
             session_.series().rows() > 0 ? session_.series().starts() : std::vector<measure::Flow>{}};
   }
 

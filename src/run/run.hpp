@@ -25,10 +25,10 @@ struct RunOptions {
 };
 
 struct RunResult {
-  bool finished;                        ///< false: stopped by `progress`; resume to go on
-  std::int64_t steps;                   ///< done by this call
-  std::size_t grains;                   ///< that move
-  double seconds;                       ///< wall time of this call
+  bool finished;       ///< false: stopped by `progress`; resume to go on
+  std::int64_t steps;  ///< done by this call
+  std::size_t grains;  ///< that move
+  double seconds;      ///< wall time of this call
   std::optional<measure::AccountVerdict> account{};
   std::vector<measure::Flow> starts{};  ///< what became of it, or of each grain that does not feel the others
 };

@@ -10,17 +10,22 @@
 namespace chute::scene {
 namespace {
 
-constexpr double overlap = 0.01;         // of a diameter, at the fastest impacts
-constexpr double usual_speed = 3;        // of flows on inclines, in sqrt(g d)
-constexpr double slip_decay = 0.08;      // gamma_s dt 7/2m
+constexpr double overlap = 0.01;     // of a diameter, at the fastest impacts
+constexpr double usual_speed = 3;    // of flows on inclines, in sqrt(g d)
+constexpr double slip_decay = 0.08;  // gamma_s dt 7/2m
 constexpr double usual_friction = 0.5;
 
 /// 1, 2 or 5 times a power of ten, not below x or, where it is to be less, not above.
 double round_number(double x, bool up) {
   const double power = std::pow(10, std::floor(std::log10(x)));
   const double part = x / power;
-  const double rounded = up ? (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10)
-                            : (part >= 5 ? 5 : part >= 2 ? 2 : 1);
+  const double rounded = up ? (part <= 1   ? 1
+                               : part <= 2 ? 2
+                               : part <= 5 ? 5
+                                           : 10)
+                            : (part >= 5   ? 5
+                               : part >= 2 ? 2
+                                           : 1);
   return std::stod(fmt::format("{:.3g}", rounded * power));
 }
 
@@ -34,8 +39,8 @@ double height_of(const engines::Setting& s) {
 }
 
 double speed_of(const engines::Setting& s) {
-  const double v = std::max({s.fastest, usual_speed * std::sqrt(s.gravity * s.mean_diameter),
-                             std::sqrt(s.gravity * height_of(s))});
+  const double v = std::max(
+      {s.fastest, usual_speed * std::sqrt(s.gravity * s.mean_diameter), std::sqrt(s.gravity * height_of(s))});
   return v > 0 ? v : 1;
 }
 
@@ -74,8 +79,9 @@ std::vector<std::string> choose_contact(toml::table& table,
     const double k = round_number(s.reference().m_eff * std::pow(v / (overlap * d), 2), true);
     normal->insert_or_assign("stiffness", k);
     chosen.push_back(fmt::format(
-        "contact.normal.stiffness = {:g}: grains that meet at {:.3g} {} then overlap by a hundredth of {}", k, v,
-        s.in("m/s", "sqrt(gd)"), s.bead_spacing > 0 && d < s.mean_diameter ? "a bead's diameter" : "a diameter"));
+        "contact.normal.stiffness = {:g}: grains that meet at {:.3g} {} then overlap by a hundredth of {}", k,
+        v, s.in("m/s", "sqrt(gd)"),
+        s.bead_spacing > 0 && d < s.mean_diameter ? "a bead's diameter" : "a diameter"));
   }
   if (viscosity) {
     const auto scene = make(table);
@@ -84,8 +90,8 @@ std::vector<std::string> choose_contact(toml::table& table,
     const double gamma = round_number(slip_decay * s.reference().m_eff / (3.5 * dt), false);
     tangential->insert_or_assign("viscosity", gamma);
     chosen.push_back(fmt::format(
-        "contact.tangential.viscosity = {:g}: the largest whose friction a step of {:.3g} {} integrates well", gamma,
-        dt, s.in("s", "sqrt(d/g)")));
+        "contact.tangential.viscosity = {:g}: the largest whose friction a step of {:.3g} {} integrates well",
+        gamma, dt, s.in("s", "sqrt(d/g)")));
   }
   if (friction) chosen.push_back(fmt::format("contact.tangential.friction = {:g}", usual_friction));
   return chosen;

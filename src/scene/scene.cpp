@@ -287,7 +287,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::vec
   auto chosen = choose_contact(table, [&](const toml::table& with) { return scene_of(with, name); });
   auto scene = scene_of(table, name);
   if (!table.contains("seed")) chosen.push_back(fmt::format("seed = {}", scene.seed));
-  if (!table.contains("units")) chosen.push_back("units = \"reduced\": m = g = d = 1, d the diameter of a bead");
+  if (!table.contains("units"))
+    chosen.push_back("units = \"reduced\": m = g = d = 1, d the diameter of a bead");
   scene.chosen = std::move(chosen);
   return scene;
 }

@@ -77,7 +77,7 @@ struct Scene {
   std::vector<Chosen<measure::Output>> output;  ///< one of each kind, wanted or not
   /// What was chosen where the scene says nothing, for people; no part of the scene.
   std::vector<std::string> chosen;
-  double checkpoint = 0;                        ///< time between checkpoints; default a tenth of the run
+  double checkpoint = 0;  ///< time between checkpoints; default a tenth of the run
 
   Scene();
   bool si() const { return units == Units::si; }

@@ -72,7 +72,8 @@ TEST_CASE("points whose errors are known count by them") {
   Fit fit = saturation();
   fit.expression = "a", fit.start = {"a=0"};
   std::vector<FitPoint> points;
-  for (int k = 0; k < 10; ++k) points.push_back({double(k), 1, 1, 0.01}), points.push_back({double(k), 2, 1, 1.0});
+  for (int k = 0; k < 10; ++k)
+    points.push_back({double(k), 1, 1, 0.01}), points.push_back({double(k), 2, 1, 1.0});
   const auto found = fit_formula(fit, points);
   REQUIRE(found);
   CHECK(found->constants[0].value == Approx((1e4 * 1 + 1 * 2) / (1e4 + 1)));

@@ -17,8 +17,12 @@ EnergyAccount off_by(double part) {
 }  // namespace
 
 TEST_CASE("the verdict on an energy account is that of its residual over what was turned over") {
-  for (const auto& [part, word] : {std::pair{0.0, "good"}, {0.0009, "good"}, {-0.0009, "good"}, {0.005, "fair"},
-                                   {-0.02, "poor"}, {0.13, "poor"}}) {
+  for (const auto& [part, word] : {std::pair{0.0, "good"},
+                                   {0.0009, "good"},
+                                   {-0.0009, "good"},
+                                   {0.005, "fair"},
+                                   {-0.02, "poor"},
+                                   {0.13, "poor"}}) {
     const auto verdict = measure::judge_account(off_by(part));
     REQUIRE(verdict);
     CHECK(verdict->part == Approx(part).margin(1e-12));

@@ -177,7 +177,9 @@ TEST_CASE("verdicts have names") {
 }
 
 TEST_CASE("ten units of time are no runaway, whatever happened in them") {
-  const auto bolts = [](double t, double duration) { return t < 0.8 * duration ? 2.0 : 2.0 + 5 * (t / duration - 0.8) * 10; };
+  const auto bolts = [](double t, double duration) {
+    return t < 0.8 * duration ? 2.0 : 2.0 + 5 * (t / duration - 0.8) * 10;
+  };
   const auto at = [&](double duration) {
     return made([&](double t) { return bolts(t, duration); }, {}, duration).judged().verdict;
   };

@@ -213,12 +213,14 @@ TEST_CASE("a restitution alone is a scene: what it leaves open is chosen, told, 
 }
 
 TEST_CASE("what a scene says is never chosen otherwise") {
-  const auto some = parsed(with_contact("[contact.normal]\nrestitution = 0.8\nstiffness = 2e5\n[contact.tangential]\nfriction = 0.3\n"));
+  const auto some = parsed(with_contact(
+      "[contact.normal]\nrestitution = 0.8\nstiffness = 2e5\n[contact.tangential]\nfriction = 0.3\n"));
   CHECK(scene::to_toml(some).find("stiffness = 200000.0") != std::string::npos);
   CHECK(scene::to_toml(some).find("friction = 0.3") != std::string::npos);
   CHECK(some.chosen.size() == 1);
   CHECK(parsed(example).chosen.empty());
-  const auto bare = parsed("[incline]\nangle=\"20 deg\"\n[bed]\ncount=20\n[grains]\ncount=50\ndiameter={mean=1}\n"
-                           "[run]\nduration=10\n[contact.normal]\nrestitution=0.5\n");
+  const auto bare = parsed(
+      "[incline]\nangle=\"20 deg\"\n[bed]\ncount=20\n[grains]\ncount=50\ndiameter={mean=1}\n"
+      "[run]\nduration=10\n[contact.normal]\nrestitution=0.5\n");
   CHECK(bare.chosen.size() == 5);  // seed and units, too
 }

@@ -14,7 +14,9 @@ read::GrainFrame frame_of(double x, std::vector<double> quaternion, double id_fi
   frame.x = {x, 5}, frame.y = {1, 2}, frame.z = {0, 0}, frame.radius = {0.5, 0.5};
   frame.time = 0;
   quaternion.insert(quaternion.end(), {1, 0, 0, 0});
-  frame.arrays = {{"id", 1, {id_first, 1 - id_first}}, {"orientation", 4, quaternion}, {"velocity", 3, {1, 0, 0, 0, 0, 0}}};
+  frame.arrays = {{"id", 1, {id_first, 1 - id_first}},
+                  {"orientation", 4, quaternion},
+                  {"velocity", 3, {1, 0, 0, 0, 0, 0}}};
   return frame;
 }
 

@@ -169,7 +169,8 @@ std::string SoftEngine<D>::why_so_deep() const {
   constexpr double fewest = 5;  // steps in a contact, as engine.steps_per_contact has it
   const double steps = setup_.contact_time / setup_.time_step;
   if (steps >= fewest) return "stiffness is too low for these velocities";
-  return fmt::format("the time step is {:.2g} of a contact time, which needs {} steps or more", 1 / steps, fewest);
+  return fmt::format("the time step is {:.2g} of a contact time, which needs {} steps or more", 1 / steps,
+                     fewest);
 }
 
 template <int D>
@@ -180,11 +181,9 @@ void SoftEngine<D>::check_overlaps() const {
     const double depth =
         contacts.overlap[c] / (wall ? grains_.radius[i] : std::min(grains_.radius[i], grains_.radius[j]));
     if (depth > setup_.deepest_overlap)
-      leave_physics(
-          i,
-          fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): {}",
-                      wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth, setup_.deepest_overlap,
-                      why_so_deep()));
+      leave_physics(i, fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): {}",
+                                   wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth,
+                                   setup_.deepest_overlap, why_so_deep()));
   });
 }
 

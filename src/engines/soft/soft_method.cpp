@@ -122,7 +122,8 @@ std::vector<Fact> SoftMethod::facts(const engines::Setting& s) const {
 }
 
 double SoftMethod::expected_residual(double decay) const {
-  return integrator == Scheme::gear5 ? residual_at(decay, gear5_residuals) : residual_at(decay, verlet_residuals);
+  return integrator == Scheme::gear5 ? residual_at(decay, gear5_residuals)
+                                     : residual_at(decay, verlet_residuals);
 }
 
 std::vector<std::string> SoftMethod::warnings(const engines::Setting& s) const {
@@ -132,15 +133,16 @@ std::vector<std::string> SoftMethod::warnings(const engines::Setting& s) const {
   std::vector<std::string> told;
   if (time_step && t_n / dt < fewest_steps)
     told.push_back(fmt::format(
-        "engine.time_step = {:.3g} is {:.2g} contact times: a contact takes t_n = {:.3g}, and needs steps of {:.2g} or less", dt,
-        dt / t_n, t_n, t_n / fewest_steps));
+        "engine.time_step = {:.3g} is {:.2g} contact times: a contact takes t_n = {:.3g}, and needs steps of {:.2g} or less",
+        dt, dt / t_n, t_n, t_n / fewest_steps));
   const auto decay = slip_decay(s, dt);
   const auto* law = std::get_if<laws::RegularisedCoulomb>(&s.contact.tangential);
   if (!decay || !law || *decay < begins || (!told.empty())) return told;
   told.push_back(fmt::format(
       "gamma_s dt 7/2m = {:.2g}: slip dies away within a few steps, and the energy account of a dense flow is off by about {:.2g} % of gravity's "
       "work; give steps_per_contact = {:.0f}, contact.tangential.viscosity = {:.3g} or relaxation_steps = 12",
-      *decay, 100 * expected_residual(*decay), std::ceil(t_n / dt * *decay / good), law->viscosity * good / *decay));
+      *decay, 100 * expected_residual(*decay), std::ceil(t_n / dt * *decay / good),
+      law->viscosity * good / *decay));
   return told;
 }
 
