@@ -24,6 +24,7 @@ Survey Following::around_focus() const {
     seen.bounds.min()[c] = -length / 2, seen.bounds.max()[c] = length / 2;
     if (period > 0) seen.domain.min()[c] = -period / 2, seen.domain.max()[c] = period / 2;
   }
+  seen.seen = seen.bounds;
   return seen;
 }
 

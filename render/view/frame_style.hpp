@@ -24,6 +24,8 @@ struct Camera {
   /// 3D, degrees: the eye goes around the incline's normal, 0 looks across the flow with x to the right, 90
   /// looks up the slope at what comes down; elevation is above the incline's plane.
   double azimuth = 30, elevation = 22;
+  bool all =
+      false;  ///< every grain at every time, however far it flew; else the view leaves single flyers outside
   double zoom = 1;  ///< 3D: > 1 is nearer than what shows the whole run
   /// Places then count from what is followed, along the slope and along what is periodic; else the camera stands.
   std::optional<Follow> follow;
@@ -71,7 +73,8 @@ struct FrameStyle {
 /// Ground and inks that go with a background.
 struct Palette {
   Rgb ground, ink, quiet, bed, plain;
-  Rgb mark;  ///< of what is pointed at: where grains were hit
+  Rgb mark;   ///< of what is pointed at: where grains were hit
+  Rgb chain;  ///< of contact forces, unlike arrows and unlike all colour maps
   double ground_alpha;
 };
 Palette palette_of(Background background);

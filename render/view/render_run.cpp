@@ -269,6 +269,7 @@ RenderReport render_run(const RenderJob& job) {
 
   RenderReport report;
   report.left_out = found.left_out;
+  report.outside = found.outside, report.places = found.places;
   const auto& style = job.style;
   const auto draw = [&](const std::vector<std::size_t>& which, bool wanted, const Take& take) {
     draw_all(

@@ -35,9 +35,10 @@ struct RenderJob {
 
 struct RenderReport {
   std::size_t drawn = 0;
-  std::size_t kept = 0;      ///< pictures that were there already, drawn from the same
-  std::size_t skipped = 0;   ///< frames that a GIF of more than 50 a second leaves out
-  std::size_t left_out = 0;  ///< grains of all frames together that have no place or no size
+  std::size_t kept = 0;                 ///< pictures that were there already, drawn from the same
+  std::size_t skipped = 0;              ///< frames that a GIF of more than 50 a second leaves out
+  std::size_t outside = 0, places = 0;  ///< places of grains outside the view, and all of them
+  std::size_t left_out = 0;             ///< grains of all frames together that have no place or no size
 };
 
 /// Draws a run: looks at all frames once for what must not change (colour range, camera), then draws those

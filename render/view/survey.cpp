@@ -112,6 +112,13 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
       s.turned.extend((seen.array() - r).matrix()).extend((seen.array() + r).matrix());
     }
     const bool fixed = frame.is_fixed(i);
+    const Eigen::Vector2d shown = turn * Eigen::Vector2d(centre.x(), centre.y());
+    const Eigen::Vector3d place(shown.x(), shown.y(), centre.z());
+    if (fixed) resting_.extend((place.array() - r).matrix()).extend((place.array() + r).matrix());
+    for (std::size_t c = 0; c < 3 && !fixed; ++c) {
+      low_ends_[c].add(place[static_cast<Eigen::Index>(c)] - r);
+      high_ends_[c].add(place[static_cast<Eigen::Index>(c)] + r);
+    }
     (fixed ? any_fixed : any_moving) = true;
     ++all_, all_diameters_ += 2 * r;
     if (fixed) continue;
@@ -149,11 +156,56 @@ void Surveyor::choose_range() {
   s.exceeds_high = values_.seen && values_.highest > s.high + slack;
 }
 
+/// The view of the whole run: along each axis from the half percent of lowest places of moving grains to the half percent of
+/// highest, over all frames, with the bed; and farther out to grains that are not far from there, for they cost no size.
+void Surveyor::choose_view() {
+  auto& s = found_;
+  s.seen = s.bounds;
+  s.places = low_ends_[0].seen;
+  if (style_.camera.all || style_.camera.window || style_.camera.follow || s.places == 0) return;
+  constexpr double tail = 0.005;  // of the places, at each end: those of 99 % lie between
+  constexpr double near = 0.25;   // of the length in between
+  Eigen::AlignedBox3d box;
+  const Eigen::Index axes = s.dimensions == 2 ? 2 : 3;
+  for (Eigen::Index c = 0; c < axes; ++c) {
+    auto lows = low_ends_[static_cast<std::size_t>(c)], highs = high_ends_[static_cast<std::size_t>(c)];
+    double low = lows.quantile(tail), high = highs.quantile(1 - tail);
+    const double length = high - low;
+    const double least = low - near * length, most = high + near * length;
+    for (const double v : lows.values)
+      if (v >= least) low = std::min(low, v);
+    for (const double v : highs.values)
+      if (v <= most) high = std::max(high, v);
+    if (!resting_.isEmpty()) low = std::min(low, resting_.min()[c]), high = std::max(high, resting_.max()[c]);
+    box.min()[c] = low, box.max()[c] = high;
+  }
+  std::size_t outside = 0;
+  for (std::size_t k = 0; k < low_ends_[0].values.size(); ++k) {
+    bool out = false;
+    for (Eigen::Index c = 0; c < axes; ++c)
+      out = out || low_ends_[static_cast<std::size_t>(c)].values[k] < box.min()[c] ||
+            high_ends_[static_cast<std::size_t>(c)].values[k] > box.max()[c];
+    outside += out;
+  }
+  s.outside = outside * low_ends_[0].stride;
+  if (outside == 0) return;
+  if (s.dimensions == 2) {
+    // copies beyond the periodic ends stay as they are
+    for (const Eigen::Index c : {0, 1}) {
+      if (style_.copies && c == 0) continue;
+      s.turned.min()[c] = box.min()[c], s.turned.max()[c] = box.max()[c];
+    }
+  } else {
+    for (Eigen::Index c = 0; c < 3; ++c) s.seen.min()[c] = box.min()[c], s.seen.max()[c] = box.max()[c];
+  }
+}
+
 Survey Surveyor::finish() {
   if (first_) throw InputError(found_.times.empty() ? "no frames to draw" : "no frame has a grain");
   auto& s = found_;
   if (s.dimensions == 3 && s.up_axis == 1 && std::abs(s.gravity[1]) <= std::abs(s.gravity[2])) s.up_axis = 2;
   choose_range();
+  choose_view();
   if (!kinds_.empty() && kinds_.size() <= most_kinds) s.categories.assign(kinds_.begin(), kinds_.end());
   if (style_.camera.follow) s.path = path_.smooth();
   s.diameter =
@@ -169,13 +221,13 @@ std::string Survey::describe() const {
     return fmt::format("{},", fmt::join(v.begin(), v.end(), ","));
   };
   return fmt::format(
-      "{} {} {} bounds={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
+      "{} {} {} bounds={} seen={} turned={} domain={} gravity={} units={} field={}:{}:{} range={}:{} {:d}{:d}{:d} "
       "diameter={} speed={} force={} fixed={:d} decimals={} times={:d} categories={}",
       dimensions, up_axis, slope, text(bounds.min()) + text(bounds.max()),
-      text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity),
-      units + clock, field.array, static_cast<int>(field.part), field.component, low, high, diverging,
-      exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times,
-      fmt::join(categories, ","));
+      text(seen.min()) + text(seen.max()), text(turned.min()) + text(turned.max()),
+      text(domain.min()) + text(domain.max()), text(gravity), units + clock, field.array,
+      static_cast<int>(field.part), field.component, low, high, diverging, exceeds_low, exceeds_high,
+      diameter, speed, force, has_fixed, time_decimals, has_times, fmt::join(categories, ","));
 }
 
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,

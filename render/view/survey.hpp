@@ -21,7 +21,11 @@ struct Survey {
   int up_axis = 1;   ///< the incline's normal: 1 (y) in the plane, else where gravity points most, or z
   double slope = 0;  ///< radians: gravity is turned that much from the normal, towards +x
   Eigen::AlignedBox3d bounds;  ///< of all grains, radii included, in the files' frame
-  Eigen::AlignedBox2d turned;  ///< 2D: the same as seen in the picture (turned by the slope if tilted;
+  Eigen::AlignedBox3d
+      seen;  ///< what the camera shows of them: all but single grains that flew far (Surveyor::choose_view)
+  std::size_t outside = 0,
+              places = 0;  ///< places of moving grains in all frames that lie outside of it, and all of them
+  Eigen::AlignedBox2d turned;  ///< 2D: the same as `seen` in the picture (turned by the slope if tilted;
                                ///< periodic copies included if they are drawn)
   Eigen::AlignedBox3d domain{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< as in GrainFrame
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
@@ -82,11 +86,15 @@ class Surveyor {
   bool first_ = true;
   double plane_ = 0;  ///< z of the first grain that was seen
   Sample values_, speeds_, forces_;
+  // Of moving grains, as they are seen: lower and upper ends along each axis, in step with each other, for `choose_view`.
+  std::array<Sample, 3> low_ends_, high_ends_;
+  Eigen::AlignedBox3d resting_;  // the bed, as it is seen
   std::set<long long> kinds_;
   PathFinder path_;
   double diameters_ = 0, all_diameters_ = 0;
   std::size_t moving_ = 0, all_ = 0;
   void choose_range();
+  void choose_view();
 };
 
 }  // namespace chute::view

@@ -55,9 +55,13 @@ void read_camera(const std::string& text, view::Camera& camera) {
     return;
   }
   if (read_follow(text, camera)) return;
+  if (text == "all") {
+    camera.all = true;
+    return;
+  }
   constexpr const char* expected =
       "X0:X1:Y0:Y1 (the part of a plane that is shown), AZIMUTH:ELEVATION[:ZOOM] (degrees, in space), "
-      "follow[:ID|mean], or one of the first two and the last with a comma between";
+      "all, follow[:ID|mean], or one of the first two and the last with a comma between";
   const auto values = numbers("--camera", text, ':', expected);
   require(values.size() >= 2 && values.size() <= 4 && all_given(values), "--camera", text, expected);
   if (values.size() == 4) {
@@ -152,6 +156,9 @@ void render(const RenderArguments& a) {
   if (report.left_out > 0)
     tell("render: left out {} grain{} (of all frames) without a place or a radius > 0\n", report.left_out,
          report.left_out == 1 ? "" : "s");
+  if (report.outside > 0)
+    tell("render: {} of {} places of grains (of all frames) lie outside the view; --camera all shows them\n",
+         report.outside, report.places);
   if (report.skipped > 0)
     tell("render: the movie leaves out {} frames: a GIF shows 50 a second at most\n", report.skipped);
   const auto kept = report.kept ? fmt::format(", {} were there", report.kept) : "";
@@ -181,9 +188,11 @@ void add_render(CLI::App& app) {
   verb->add_option("--colormap", a->map, "viridis, batlow, cividis, rdbu, or one of them with _r, reversed");
   verb->add_option("--size", a->size, "pixels, WIDTHxHEIGHT; default 1920x1080");
   verb->add_option("--frames", a->frames, "one frame, or FIRST:END:STEP with END not included");
-  verb->add_option("--camera", a->camera,
-                   "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all. Also, or "
-                   "after a comma, follow[:ID|mean]: it goes along with a grain or the mean");
+  verb->add_option(
+      "--camera", a->camera,
+      "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows all but single grains that flew far, `all` "
+      "these too. Also, or "
+      "after a comma, follow[:ID|mean]: it goes along with a grain or the mean");
   verb->add_option("--background", a->background, "white, dark or transparent")->capture_default_str();
   verb->add_flag("--tilt", a->tilt, "turn the picture so that gravity points down");
   verb->add_flag("--arrows", a->arrows, "velocity arrows");

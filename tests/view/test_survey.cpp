@@ -117,3 +117,27 @@ TEST_CASE("No frames, no survey") {
   view::Surveyor surveyor({});
   CHECK_THROWS_AS(surveyor.finish(), InputError);
 }
+
+TEST_CASE("A single grain that flies off does not make the others small, and is counted") {
+  std::vector<read::GrainFrame> frames(4, grains::one_disc());
+  for (auto& frame : frames)
+    for (int i = 0; i < 300; ++i) grains::add(frame, i % 30, i / 30, 0, 0.5, 1);
+  grains::add(frames[0], 5, 11, 0, 0.5, 1);        // a little above the others: shown
+  grains::add(frames[2], 5, 400, 0, 0.5, 1);       // far above
+  grains::add(frames[0], 3, -2, 0, 0.5, 0, 0, 0);  // the bed below
+  auto s = survey_of(frames);
+  CHECK(s.bounds.max().y() == 400.5);
+  CHECK(s.turned.max().y() == 11.5);
+  CHECK(s.turned.min().y() == -2.5);
+  CHECK((s.outside == 1 && s.places == 4 * 301 + 2));
+  view::FrameStyle style;
+  style.camera.all = true;
+  s = survey_of(frames, style);
+  CHECK((s.turned.max().y() == 400.5 && s.outside == 0));
+  // in space the same, along each axis
+  for (auto& frame : frames) grains::add(frame, 5, 5, 0.2, 0.5, 1), frame.dimensions = 3;
+  s = survey_of(frames);
+  CHECK(s.bounds.max().y() == 400.5);
+  CHECK(s.seen.max().y() == 11.5);
+  CHECK(s.seen.max().z() == Approx(0.7));
+}
