@@ -212,15 +212,15 @@ class Layouter {
       const auto end = comma == std::string::npos ? text.size() : comma + 1;
       const auto part = text.substr(at, end - at);
       const auto longer = line.empty() ? part : line + " " + part;
-      if (!line.empty() && set_text(longer, look_.panel_size).width > width) {
-        lines.push_back(set_to_fit(line, look_.panel_size, width));
+      if (!line.empty() && set_text(longer, look_.legend_size).width > width) {
+        lines.push_back(set_to_fit(line, look_.legend_size, width));
         line = part;
       } else {
         line = longer;
       }
       at = comma == std::string::npos ? text.size() : comma + 2;
     }
-    lines.push_back(set_to_fit(line, look_.panel_size, width));
+    lines.push_back(set_to_fit(line, look_.legend_size, width));
     return lines;
   }
   double heading_height(const Panel& p, double width) const {

@@ -190,7 +190,10 @@ class SeriesPainter {
       triangle.move(tip).line(neck + half * across).line(neck - half * across).close();
       const std::size_t first = p_.list.items.size();
       p_.list.stroke(shaft, {0.85 * p_.look.line_width, {}, Cap::butt, Join::miter}, ink_.color);
-      p_.list.fill(triangle, ink_.color);
+      if (ink_.hollow)
+        p_.list.stroke(triangle, {0.85 * p_.look.line_width, {}, Cap::butt, Join::miter}, ink_.color);
+      else
+        p_.list.fill(triangle, ink_.color);
       p_.list.tag(Tag::Kind::beyond, p_.panel, s_.name, b.points, first);
       Rect taken = Rect::nothing();
       taken.include(tip), taken.include(tip - length * b.along + half * across),
@@ -348,9 +351,12 @@ void include_series(Extents& e, const Plot& plot, const Series& s) {
 Extents extents_of(const Plot& plot) {
   Extents e;
   e.y.keep_off = true;
+  // Points that are not vouched for stretch no axis: where they lie far off they become arrows at the frame.
+  const bool all_doubtful = std::all_of(plot.series.begin(), plot.series.end(),
+                                        [](const Series& s) { return is_doubtful(s.name) || s.x.empty(); });
   for (const auto& s : plot.series) {
     check_lengths(s);
-    include_series(e, plot, s);
+    if (all_doubtful || !is_doubtful(s.name)) include_series(e, plot, s);
   }
   // a line that runs along the lower edge for long would not be seen there: it asks for room as markers do
   for (const auto& s : plot.series) {

@@ -113,7 +113,7 @@ Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect
   places.has_time = survey.has_times;
   places.has_gravity = !survey.gravity.isZero(0);
   places.has_scale = true;
-  places.has_key = style.arrows && survey.speed > 0;
+  places.has_key = (style.arrows && survey.speed > 0) || (style.chains && survey.force > 0);
   // in space the scale bar is part of the scene, only its label may reach below
   places.foot = survey.dimensions == 2 ? foot : 0.8;
   const auto fit = [&](double room_width, double room_height) {
@@ -141,7 +141,8 @@ Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect
     }
   }
   // beside the time, if there is room
-  places.has_key = places.has_key && places.scene.width() > 17 * places.em;
+  places.has_key =
+      places.has_key && places.scene.width() > (style.arrows && style.chains ? 26 : 17) * places.em;
   return places;
 }
 

@@ -59,7 +59,8 @@ class FlatPainter : public Painter {
     if (const double strength = g.head<2>().norm(); strength > 0)
       directions.gravity = map_.direction(g[0] / strength, g[1] / strength);
     directions.normal = map_.direction(0, -1);
-    furniture->stand(furniture->flat_scale(map_.scale), directions, studio_.arrow_length() * map_.scale);
+    furniture->stand(furniture->flat_scale(map_.scale), directions, studio_.arrow_length() * map_.scale,
+                     studio_.widest_chain() * map_.scale);
   }
 
   void paint(const FrameData& data, image::Image& into) override {
@@ -122,11 +123,14 @@ class FlatPainter : public Painter {
     const auto* angle = frame.find(fields::angle.name);
     if (studio_.style.spin && !studio_.style.arrows && angle && angle->components == 1 && !bed &&
         disc.radius > 3) {
+      // a diameter: how far it turned between two frames is read off a line more surely than off a point
       const double turned = angle->at(i);
-      disc.mark = 0.6 * disc.radius * map_.direction(std::cos(turned), std::sin(turned));
-      disc.mark_radius = 0.13 * disc.radius;
-      disc.mark_color =
-          brightness(disc.fill) > 0.45 ? mix(disc.fill, black, 0.5) : mix(disc.fill, white, 0.62);
+      const Point end = 0.86 * disc.radius * map_.direction(std::cos(turned), std::sin(turned));
+      const Rgb ink = brightness(disc.fill) > 0.45 ? mix(disc.fill, black, 0.5) : mix(disc.fill, white, 0.62);
+      const double width = std::max(0.9, 0.13 * disc.radius);
+      scene_.add(disc);
+      scene_.add(Bar{disc.centre - end, disc.centre + end, width, width, ink, alpha, alpha});
+      return;
     }
     scene_.add(disc);
   }
@@ -177,7 +181,7 @@ class FlatPainter : public Painter {
 
   void add_chains(std::span<const read::ForceLink> links) {
     if (studio_.survey.force <= 0) return;
-    const double widest = 0.42 * studio_.survey.diameter * map_.scale, L = period();
+    const double widest = studio_.widest_chain() * map_.scale, L = period();
     for (const auto& link : links) {
       const double width = widest * std::min(strongest_link, link.force / studio_.survey.force);
       if (width < 0.25 || studio_.is_cut(link.from) || studio_.is_cut(link.to)) continue;
@@ -186,7 +190,7 @@ class FlatPainter : public Painter {
         double dx = link.to.x() - a.x();
         if (L > 0) dx -= L * std::round(dx / L);  // a contact through the periodic ends
         const Bar bar{map_(a.x() + shift, a.y()), map_(a.x() + shift + dx, link.to.y()), width, width,
-                      studio_.palette.ink};
+                      studio_.palette.chain};
         scene_.add(bar);
         Disc joint;
         joint.radius = width / 2, joint.fill = joint.edge = bar.color;

@@ -42,6 +42,7 @@ std::string FrameStyle::describe() const {
   if (camera.window)
     text += fmt::format(" window={}:{}:{}:{}", (*camera.window)[0], (*camera.window)[1], (*camera.window)[2],
                         (*camera.window)[3]);
+  if (camera.all) text += " all";
   if (camera.follow)
     text += camera.follow->id ? fmt::format(" follow={}", *camera.follow->id) : std::string(" follow=mean");
   if (up) text += fmt::format(" up={}:{}:{}", up->x(), up->y(), up->z());
@@ -72,14 +73,10 @@ Palette palette_of(Background background) {
   constexpr Rgb vermilion{.84, .37, 0};  // Okabe and Ito's, which no colour map here contains
   constexpr auto gray = [](double level) { return Rgb{level, level, level}; };
   if (background == Background::dark)
-    return {{.071, .078, .094}, gray(.93), gray(.55), {.27, .28, .31}, {.55, .66, .78}, vermilion, 1};
-  return {gray(1),
-          gray(.10),
-          gray(.55),
-          gray(.80),
-          {.42, .55, .68},
-          vermilion,
-          background == Background::white ? 1. : 0.};
+    return {{.071, .078, .094}, gray(.93), gray(.55),     {.27, .28, .31},
+            {.55, .66, .78},    vermilion, {1, .42, .52}, 1};
+  return {gray(1),         gray(.10), gray(.55),       gray(.80),
+          {.42, .55, .68}, vermilion, {.72, .02, .18}, background == Background::white ? 1. : 0.};
 }
 
 }  // namespace chute::view

@@ -75,7 +75,8 @@ struct FrameStyle {
 /// Ground and inks that go with a background.
 struct Palette {
   Rgb ground, ink, quiet, bed, plain;
-  Rgb mark;  ///< of what is pointed at: where grains were hit
+  Rgb mark;   ///< of what is pointed at: where grains were hit
+  Rgb chain;  ///< of contact forces, unlike arrows and unlike all colour maps
   double ground_alpha;
 };
 Palette palette_of(Background background);

@@ -92,6 +92,14 @@ std::string time_text(const Survey& survey, double time) {
   return fmt::format("$t = {}$", number);
 }
 
+double plain_below(double largest) {
+  const double unit = std::pow(10, std::floor(std::log10(largest)));
+  double plain = unit;
+  for (const double times : {1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (times * unit <= largest * (1 + 1e-9)) plain = times * unit;
+  return plain;
+}
+
 double plain_length(double longest) {
   const double unit = std::pow(10, std::floor(std::log10(longest)));
   const double times = longest / unit;
@@ -260,18 +268,38 @@ void Furniture::draw_scale(DisplayList& list, const ScaleBar& scale) const {
   plot::draw_text(list, text, at, ink());
 }
 
-/// An arrow of a plain speed, to read the others by.
-void Furniture::draw_key(DisplayList& list, double arrow_pixels) const {
+/// An arrow of a plain speed near the largest, and a chain of a plain force near the largest, to read the others by.
+void Furniture::draw_key(DisplayList& list, double arrow_pixels, double chain_pixels) const {
+  Point end = places_.key;
+  if (style_.arrows && survey_.speed > 0)
+    end.x() = draw_speed_key(list, end, arrow_pixels) - 1.2 * places_.em;
+  if (style_.chains && survey_.force > 0) draw_force_key(list, end, chain_pixels);
+}
+
+void Furniture::draw_force_key(DisplayList& list, Point end, double chain_pixels) const {
+  const double em = places_.em, force = plain_below(survey_.force);
+  const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,mg$", force)
+                    : survey_.units == "SI"    ? fmt::format("{:g} N", force)
+                                               : fmt::format("{:g}", force);
+  const auto text = plot::set_text(unit, small * em);
+  const Point at{end.x() - text.width, end.y()}, to{at.x() - 0.5 * em, at.y() - 0.3 * small * em};
+  const double width = std::max(0.5, chain_pixels * force / survey_.force);
+  const Rgb c = palette_.chain;
+  list.stroke(segment({to.x() - 2 * em, to.y()}, to), {width, {}}, {c.r, c.g, c.b, 1});
+  plot::draw_text(list, text, at, ink());
+}
+
+double Furniture::draw_speed_key(DisplayList& list, Point end, double arrow_pixels) const {
   const double em = places_.em;
-  const double speed = plain_length(std::min(3 * survey_.speed, 4.5 * em / arrow_pixels));
+  const double speed = plain_below(std::min(survey_.speed, 8 * em / arrow_pixels));
   const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,\\sqrt{{gd}}$", speed)
                     : survey_.units == "SI"    ? fmt::format("{:g} m/s", speed)
                                                : fmt::format("{:g}", speed);
   const auto text = plot::set_text(unit, small * em);
-  const Point at{places_.key.x() - text.width, places_.key.y()},
-      to{at.x() - 0.5 * em, at.y() - 0.3 * small * em};
+  const Point at{end.x() - text.width, end.y()}, to{at.x() - 0.5 * em, at.y() - 0.3 * small * em};
   draw_arrow(list, {to.x() - speed * arrow_pixels, to.y()}, to, std::max(1.5, 0.085 * em), 0.55 * em, ink());
   plot::draw_text(list, text, at, ink());
+  return to.x() - speed * arrow_pixels;
 }
 
 void Furniture::draw_gravity(DisplayList& list, const Directions& directions) const {
@@ -313,11 +341,12 @@ void Furniture::draw_gravity(DisplayList& list, const Directions& directions) co
   plot::draw_text(list, angle, {box.left, box.bottom - 0.25 * em}, ink());
 }
 
-void Furniture::stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels) {
+void Furniture::stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels,
+                      double chain_pixels) {
   auto list = blank(style_.width, style_.height);
   if (places_.has_bar) survey_.categories.empty() ? draw_bar(list) : draw_kinds(list);
   if (places_.has_scale) draw_scale(list, kept_inside(scale));
-  if (places_.has_key) draw_key(list, arrow_pixels);
+  if (places_.has_key) draw_key(list, arrow_pixels, chain_pixels);
   if (places_.has_gravity) draw_gravity(list, directions);
   standing_ = plot::rasterise_by_cairo(list, pixels);
   if (plot_) plot_->stand(standing_);

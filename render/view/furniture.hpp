@@ -36,8 +36,9 @@ class Furniture {
   /// A horizontal scale bar below the scene, if one unit is that many pixels long everywhere.
   ScaleBar flat_scale(double pixels_per_unit) const;
 
-  /// Draws the standing part. `arrow_pixels` is the length of an arrow for speed 1.
-  void stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels);
+  /// Draws the standing part. `arrow_pixels` is the length of an arrow for speed 1, `chain_pixels` the width of the chain of
+  /// nearly the largest force.
+  void stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels, double chain_pixels);
 
   /// Puts everything on a frame whose time is `time`.
   void put_on(image::Image& frame, double time) const;
@@ -58,7 +59,10 @@ class Furniture {
   std::vector<std::string> kind_labels() const;
   ScaleBar kept_inside(ScaleBar scale) const;
   void draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
-  void draw_key(plot::DisplayList& list, double arrow_pixels) const;
+  void draw_key(plot::DisplayList& list, double arrow_pixels, double chain_pixels) const;
+  double draw_speed_key(plot::DisplayList& list, plot::Point end,
+                        double arrow_pixels) const;  ///< its left end
+  void draw_force_key(plot::DisplayList& list, plot::Point end, double chain_pixels) const;
   void draw_gravity(plot::DisplayList& list, const Directions& directions) const;
   plot::Color ink() const { return {palette_.ink.r, palette_.ink.g, palette_.ink.b, 1}; }
   plot::Color quiet() const { return {palette_.quiet.r, palette_.quiet.g, palette_.quiet.b, 1}; }
@@ -69,6 +73,8 @@ std::string time_text(const Survey& survey, double time);
 
 /// A length of 1, 2 or 5 times a power of ten, at most `longest`; and its label with unit.
 double plain_length(double longest);
+/// The largest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not above `largest` > 0: for keys.
+double plain_below(double largest);
 std::string length_text(double length, const std::string& units);
 
 }  // namespace chute::view

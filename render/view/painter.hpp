@@ -36,6 +36,8 @@ struct Studio {
     return survey.has_fixed && frame.is_fixed(grain);
   }
   Rgb kind_color(std::ptrdiff_t kind) const;  ///< of survey.categories
+  /// Width of the chain of nearly the largest force, in the files' unit.
+  double widest_chain() const { return 0.42 * survey.diameter; }
   /// Length of a velocity arrow for speed 1, in the files' unit.
   double arrow_length() const { return survey.speed > 0 ? 1.6 * survey.diameter / survey.speed : 0; }
 };

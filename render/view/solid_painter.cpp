@@ -55,7 +55,8 @@ class SolidPainter : public Painter {
     ScaleBar scale = scale_bar(furniture->places().em);
     shown_ = furniture->places().scene;
     if (goes_near() && !(shown_.contains(scale.from) && shown_.contains(scale.to))) scale.to = scale.from;
-    furniture->stand(scale, directions, studio_.arrow_length() * eye_.focal / eye_.distance);
+    furniture->stand(scale, directions, studio_.arrow_length() * eye_.focal / eye_.distance,
+                     studio_.widest_chain() * eye_.focal / eye_.distance);
   }
 
   void paint(const FrameData& data, image::Image& into) override {
@@ -197,7 +198,7 @@ class SolidPainter : public Painter {
     if (studio_.survey.force <= 0) return;
     for (const auto& link : links) {
       const double radius =
-          0.22 * studio_.survey.diameter * std::min(strongest_link, link.force / studio_.survey.force);
+          studio_.widest_chain() / 2 * std::min(strongest_link, link.force / studio_.survey.force);
       constexpr double thinnest = 0.004;  // mean diameters; thinner ones are not seen
       if (radius < thinnest * studio_.survey.diameter || studio_.is_cut(link.from) || studio_.is_cut(link.to))
         continue;
@@ -205,8 +206,7 @@ class SolidPainter : public Painter {
       for (int c = 0; c < 3; ++c)
         if (const double L = studio_.survey.domain.sizes()[c]; L > 0)
           to[c] -= L * std::round((to[c] - link.from[c]) / L);  // a contact through the periodic ends
-      content_.rods.push_back(
-          {link.from, to, radius, radius, mix(studio_.palette.ink, studio_.palette.ground, 0.2)});
+      content_.rods.push_back({link.from, to, radius, radius, studio_.palette.chain});
     }
   }
 

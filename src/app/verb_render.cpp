@@ -65,6 +65,10 @@ void read_camera(const std::string& text, view::Camera& camera) {
     return;
   }
   if (read_follow(text, camera)) return;
+  if (text == "all") {
+    camera.all = true;
+    return;
+  }
   constexpr const char* expected =
       "X0:X1:Y0:Y1 (the part of a plane that is shown), AZIMUTH:ELEVATION[:ZOOM] (degrees, in space), "
       "all, follow[:ID|mean], or one of the first two and the last with a comma between";

@@ -161,12 +161,12 @@ std::vector<Golden> plot_goldens() {
                            {"a note moved", [](Figure& f) { f.panels[0].notes[0].y -= 0.05; }}}),
       golden_of("steps", {{"one series left out", [](Figure& f) { f.panels[0].series.pop_back(); }},
                           {"linear for log", [](Figure& f) { f.panels[0].y.scale = Scale::log; }}}),
-      golden_of("beyond", {{"a point outside forgotten",
+      golden_of("beyond", {{"points outside forgotten",
                             [](Figure& f) {
-                              f.panels[0].series[0].x.pop_back();
-                              f.panels[0].series[0].y.pop_back();
-                              f.panels[0].series[0].x_err.pop_back();
-                              f.panels[0].series[0].y_err.pop_back();
+                              for (auto& s : f.panels[0].series)
+                                if (s.name == "mu=0.5")
+                                  for (auto* column : {&s.x, &s.y, &s.x_err, &s.y_err})
+                                    column->resize(column->size() - 2);
                             }},
                            {"what is doubtful filled",
                             [](Figure& f) {

@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -30,20 +31,31 @@ Blob blob(const image::Image& image) {
   return b;
 }
 
-/// Mean place, from the middle, y up, of the pixels within 0.8 radii that differ from the most frequent
-/// colour.
-plot::Point mark(const image::Image& image, double radius) {
-  const auto* plain = image.pixel(image.width / 2, image.height / 2);
-  double x = 0, y = 0, n = 0;
+/// Of the pixels within 0.8 radii that differ from the colour `beside` the mark: their mean place from the middle (y up), the
+/// direction along which they are spread most, and how far (root mean square).
+struct Mark {
+  plot::Point mean{0, 0}, along{0, 0};
+  double spread = 0, weight = 0;
+};
+Mark mark(const image::Image& image, double radius, plot::Point beside) {
+  const auto* plain = image.pixel(image.width / 2 + static_cast<int>(beside.x()),
+                                  image.height / 2 - static_cast<int>(beside.y()));
+  Mark m;
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   for (int j = 0; j < image.height; ++j)
     for (int i = 0; i < image.width; ++i) {
-      const double u = i + 0.5 - image.width / 2.0, v = image.height / 2.0 - j - 0.5;
-      if (std::hypot(u, v) > 0.8 * radius) continue;
-      const auto* p = image.pixel(i, j);
-      const double w = std::abs(p[0] - plain[0]) + std::abs(p[1] - plain[1]) + std::abs(p[2] - plain[2]);
-      x += w * u, y += w * v, n += w;
+      const plot::Point p{i + 0.5 - image.width / 2.0, image.height / 2.0 - j - 0.5};
+      if (p.norm() > 0.8 * radius) continue;
+      const auto* seen = image.pixel(i, j);
+      const double w =
+          std::abs(seen[0] - plain[0]) + std::abs(seen[1] - plain[1]) + std::abs(seen[2] - plain[2]);
+      m.mean += w * p, moments += w * p * p.transpose(), m.weight += w;
     }
-  return {x / n, y / n};
+  if (m.weight == 0) return m;
+  m.mean /= m.weight;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> main(moments / m.weight);
+  m.along = main.eigenvectors().col(1), m.spread = std::sqrt(main.eigenvalues()[1]);
+  return m;
 }
 
 bool near_color(const std::uint8_t* pixel, view::Rgb color, int by = 1) {
@@ -81,7 +93,7 @@ TEST_CASE("A transparent ground is transparent, and a disc is not") {
 
 TEST_CASE("A disc has the map's colour at its value") {
   auto style = bare(128);
-  style.map = GENERATE("viridis", "batlow", "cividis", "rdbu_r");
+  style.map = GENERATE("viridis", "batlow", "cividis", "rdbu_r"), style.spin = false;
   for (const double speed : {0.0, 1.0, 2.7, 4.0, 9.0}) {
     auto frame = grains::one_disc();
     frame.arrays[3].values[0] = -speed;  // the speed has no sign
@@ -89,18 +101,20 @@ TEST_CASE("A disc has the map's colour at its value") {
   }
 }
 
-TEST_CASE("The spin mark turns with the disc") {
+TEST_CASE("The spin mark is a diameter that turns with the disc") {
   const auto style = bare(200);
   for (const double angle : {0.0, 1.0, std::numbers::pi / 2, 4.0}) {
     auto frame = grains::one_disc();
     frame.arrays[2].values[0] = angle;
-    const auto seen = mark(picture(frame, style), 48);
-    CHECK(seen.norm() == Approx(0.6 * 48).epsilon(0.03));
-    CHECK(std::cos(std::atan2(seen.y(), seen.x()) - angle) > 0.999);
+    const plot::Point along{std::cos(angle), std::sin(angle)}, beside{-20 * along.y(), 20 * along.x()};
+    const auto seen = mark(picture(frame, style), 48, beside);
+    CHECK(seen.mean.norm() < 0.3);
+    CHECK(std::abs(seen.along.dot(along)) > 0.9995);
+    CHECK(seen.spread == Approx(0.8 * 48 / std::sqrt(3.0)).epsilon(0.02));  // all across what is looked at
   }
   auto still = style;
   still.spin = false;
-  CHECK(std::isnan(mark(picture(grains::one_disc(), still), 48).x()));
+  CHECK(mark(picture(grains::one_disc(), still), 48, {0, 20}).weight == 0);
 }
 
 TEST_CASE("Copies appear beyond the periodic ends, fainter the farther out") {
@@ -177,16 +191,17 @@ TEST_CASE("Force chains are as wide as their forces") {
   surveyor.see(frame);
   for (int i = 0; i < 10; ++i) surveyor.see_force(2);
   view::FrameRenderer renderer(style, surveyor.finish());
-  const auto dark_rows = [&](double force) {
+  const auto chain_rows = [&](double force) {
     const read::ForceLink link{{-1.5, 0.5, 0}, {1.5, 0.5, 0}, force};
     const auto& image = renderer.draw({.frame = frame, .links = std::span(&link, 1)});
     double sum = 0;
-    for (int y = 0; y < 200; ++y) sum += image.pixel(70, y)[0] < 60;
+    for (int y = 0; y < 200; ++y)
+      sum += near_color(image.pixel(70, y), view::palette_of(style.background).chain);
     return sum;
   };
-  const double wide = dark_rows(2);
+  const double wide = chain_rows(2);
   CHECK(wide == Approx(0.42 * 2 * 48).margin(2));  // 0.42 diameters for (nearly) the largest force
-  CHECK(dark_rows(1) == Approx(wide / 2).margin(2));
+  CHECK(chain_rows(1) == Approx(wide / 2).margin(2));
 }
 
 TEST_CASE("A trail leads to where a grain was, through the periodic ends") {

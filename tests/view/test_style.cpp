@@ -61,6 +61,7 @@ TEST_CASE("Every part of a style is part of what a frame is drawn from") {
   differs([](auto& s) { s.trail = 1; });
   differs([](auto& s) { s.camera.window = {0, 1, 0, 1}; });
   differs([](auto& s) { s.camera.azimuth = 1; });
+  differs([](auto& s) { s.camera.all = true; });
   for (bool view::FrameStyle::*flag :
        {&view::FrameStyle::tilt, &view::FrameStyle::arrows, &view::FrameStyle::chains,
         &view::FrameStyle::copies, &view::FrameStyle::occlusion, &view::FrameStyle::spin,
