@@ -17,7 +17,9 @@ def setUpModule():
 
 
 def curves(figure):
-    return made.curves(figure)
+    """Without the fits that are drawn through them, and without the places where starts part."""
+    return {(panel, name): curve for (panel, name), curve in made.curves(figure).items()
+            if not name.endswith((" fit", " apart"))}
 
 
 def against(curve, reference):
@@ -122,9 +124,10 @@ class Sweeps(unittest.TestCase):
                 self.assertLess(max(deviations), 0)
                 self.assertGreater(min(deviations), -worst)
         # the printed closed form is 2 to 5 % higher still
-        for x, ratio in against(c["", "theory Phi=2.25"][20:-2], c["", "theory corrected Phi=2.25"]):
-            self.assertGreater(ratio, 0.02, x)
-            self.assertLess(ratio, 0.08, x)
+        for x, ratio in against(c["", "theory Phi=2.25"], c["", "theory corrected Phi=2.25"]):
+            if 0.045 < x < 0.22:
+                self.assertGreater(ratio, 0.02, x)
+                self.assertLess(ratio, 0.08, x)
 
     def test_4_18_disorder_is_close_too(self):
         c = curves("fig-4-18")
