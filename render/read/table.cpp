@@ -191,6 +191,15 @@ std::vector<double> Table::column(std::string_view name) const {
   return values;
 }
 
+std::vector<double> Table::values(std::string_view name) const {
+  if (!is_time(name)) return column(name);
+  std::vector<double> values;
+  const auto at = index(name);
+  for (const auto& row : rows)
+    values.push_back(iso_time(row[at]).value_or(std::numeric_limits<double>::quiet_NaN()));
+  return values;
+}
+
 bool Table::is_number(std::string_view name) const {
   const auto at = index(name);
   return std::all_of(rows.begin(), rows.end(),

@@ -18,6 +18,7 @@
 #include "plot/draw.hpp"
 #include "plot/layout.hpp"
 #include "plot/recipe.hpp"
+#include "read/iso_time.hpp"
 #include "read/table.hpp"
 #include "run/version.hpp"
 #include "theory/theory_figures.hpp"
@@ -78,7 +79,7 @@ const Computation& find_computation(const std::string& name, const fs::path& rec
 /// Rows of a CSV file with the columns that figures have.
 figures::FigureTable read_rows(const fs::path& file) {
   const auto table = read::read_table(file);
-  const auto x = table.column("x"), y = table.column("y");
+  const auto x = table.values("x"), y = table.values("y");
   const auto series = table.text("series");
   const auto optional = [&](const char* name) {
     return table.has(name) ? table.column(name) : std::vector<double>(x.size(), NAN);
@@ -88,6 +89,7 @@ figures::FigureTable read_rows(const fs::path& file) {
   const auto known = [](double v) { return std::isfinite(v) ? std::optional(v) : std::nullopt; };
   figures::FigureTable made;
   made.comments = table.comments;
+  made.x_times = table.is_time("x"), made.y_times = table.is_time("y");
   for (std::size_t i = 0; i < x.size(); ++i)
     made.rows.push_back({panel[i], series[i], x[i], y[i], known(x_err[i]), known(y_err[i])});
   return made;
@@ -121,7 +123,16 @@ std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {
   std::vector<std::string> comments{recipe.title};
   comments.insert(comments.end(), table.comments.begin(), table.comments.end());
   io::Csv csv(comments, {"panel", "series", "x", "y", "x_err", "y_err"});
-  for (const auto& row : table.rows) csv.row({row.panel, row.series}, {row.x, row.y, row.x_err, row.y_err});
+  const auto text = [](double value, bool is_time) {
+    return is_time ? read::iso_text(value) : fmt::format("{}", value);
+  };
+  for (const auto& row : table.rows)
+    if (table.y_times)
+      csv.row({row.panel, row.series, text(row.x, table.x_times), text(row.y, true)}, {row.x_err, row.y_err});
+    else if (table.x_times)
+      csv.row({row.panel, row.series, text(row.x, true)}, {row.y, row.x_err, row.y_err});
+    else
+      csv.row({row.panel, row.series}, {row.x, row.y, row.x_err, row.y_err});
   return csv.text();
 }
 

@@ -16,6 +16,7 @@ struct FigureRow {
 struct FigureTable {
   std::vector<std::string> comments;
   std::vector<FigureRow> rows;
+  bool x_times = false, y_times = false;  ///< dates and times of day, in seconds since the begin of 1970
 };
 
 struct FigureContext {
