@@ -20,6 +20,7 @@ struct Axis {
   Scale scale = Scale::linear;
   std::optional<double> min, max;  ///< automatic where absent
   std::vector<std::string> names;  ///< of the places 1, 2, 3 …: labels in place of numbers
+  bool times = false;              ///< dates and times of day, in seconds since the begin of 1970
 };
 
 enum class Kind {

@@ -28,6 +28,7 @@ namespace {
 struct Rows {
   std::vector<std::string> panel, series;
   std::vector<double> x, y, x_err, y_err;
+  bool x_times = false, y_times = false;
 };
 
 bool is_line_by_name(const std::string& name) {
@@ -39,7 +40,8 @@ class Builder {
  public:
   Builder(const PlotRecipe& recipe, const read::Table& table) : recipe_(recipe), table_(table) {
     rows_.panel = table.text("panel"), rows_.series = table.text("series");
-    rows_.x = table.column("x"), rows_.y = table.column("y");
+    rows_.x = table.values("x"), rows_.y = table.values("y");
+    rows_.x_times = table.is_time("x"), rows_.y_times = table.is_time("y");
     if (table.has("x_err")) rows_.x_err = table.column("x_err");
     if (table.has("y_err")) rows_.y_err = table.column("y_err");
     if (rows_.x.empty()) fail("no rows to draw");
@@ -123,7 +125,7 @@ class Builder {
                             hint.empty() ? "" : fmt::format(", did you mean \"{}\"?", hint)));
   }
 
-  static Axis make_axis(const AxisRecipe& general, const AxisRecipe& own) {
+  Axis make_axis(const AxisRecipe& general, const AxisRecipe& own, bool times) const {
     Axis axis;
     axis.label = own.label.value_or(general.label.value_or(""));
     const auto scale = own.scale != AxisRecipe::Scale::automatic ? own.scale : general.scale;
@@ -131,6 +133,9 @@ class Builder {
     axis.min = own.min ? own.min : general.min;
     axis.max = own.max ? own.max : general.max;
     axis.names = own.names.empty() ? general.names : own.names;
+    axis.times = times && axis.names.empty();
+    if (axis.times && axis.scale == Scale::log) fail_recipe("dates have no logarithmic axis");
+    if (axis.times && factor(general, own) != 1) fail_recipe("dates have no factor");
     return axis;
   }
   static double factor(const AxisRecipe& general, const AxisRecipe& own) {
@@ -251,7 +256,7 @@ class Builder {
     Panel panel;
     panel.label = p.tag.value_or(p.label), panel.title = p.title, panel.legend = p.legend;
     panel.parameters = p.parameters.value_or(parameters_of(table_.comments, p.label));
-    panel.x = make_axis(recipe_.x, p.x), panel.y = make_axis(recipe_.y, p.y);
+    panel.x = make_axis(recipe_.x, p.x, rows_.x_times), panel.y = make_axis(recipe_.y, p.y, rows_.y_times);
     panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
     panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
     if (p.chains) panel.chains = make_chains(p, panel.series);
@@ -270,7 +275,7 @@ class Builder {
     for (const auto& i : p.insets) {
       Inset& inset = panel.insets.emplace_back();
       inset.width = i.width, inset.height = i.height, inset.place = i.place;
-      inset.plot.x = make_axis({}, i.x), inset.plot.y = make_axis({}, i.y);
+      inset.plot.x = make_axis({}, i.x, rows_.x_times), inset.plot.y = make_axis({}, i.y, rows_.y_times);
       inset.plot.series = make_series(i.panel.value_or(p.label), i.series, factor({}, i.x), factor({}, i.y));
     }
     return panel;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "plot/time_ticks.hpp"
 
 namespace chute::plot {
 
@@ -65,8 +66,12 @@ Span padded_linear(const Axis& axis, Extent e) {
   Span span{low, high, Scale::linear};
   const double range = high - low, size = std::max(std::abs(low), std::abs(high));
   if (!std::isfinite(range)) return span;
-  if (range < 1e-9 * size || size == 0) {  // such differences are rounding, not data
-    const double wider = size > 0 ? std::max(0.1 * size, std::numeric_limits<double>::min()) : 0.5;
+  constexpr double half_a_day = 43'200;
+  const double rounding = axis.times ? 0 : 1e-9 * size;  // clocks tell a second from the next in fifty years
+  if (range < rounding || range == 0 || size == 0) {     // such differences are rounding, not data
+    const double wider = axis.times ? half_a_day
+                         : size > 0 ? std::max(0.1 * size, std::numeric_limits<double>::min())
+                                    : 0.5;
     if (!axis.min) span.low = held(span.low - wider);
     if (!axis.max) span.high = held(span.high + wider);
     return span;
@@ -80,7 +85,7 @@ Span padded_linear(const Axis& axis, Extent e) {
     span.high = held(span.high + space);
   if (axis.min || on_floor) return span;
   // near zero start at zero, unless markers sit right there
-  if (low >= 0 && low < 0.2 * high && e.dot_low > space)
+  if (!axis.times && low >= 0 && low < 0.2 * high && e.dot_low > space)
     span.low = 0;
   else if (e.keep_off || e.dot_low < low + space)
     span.low = held(span.low - space);
@@ -378,6 +383,8 @@ Ticks ticks_for(const Span& span, double length, double size, bool horizontal) {
 }
 
 Ticks ticks_for(const Axis& axis, const Span& span, double length, double size, bool horizontal) {
+  if (axis.times && span.scale == Scale::linear)
+    if (auto ticks = time_ticks(span, length, size, horizontal)) return std::move(*ticks);
   if (axis.names.empty()) return ticks_for(span, length, size, horizontal);
   return Ruler(span, length, size, horizontal).named(axis.names);
 }

@@ -1,6 +1,9 @@
 #include "read/iso_time.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cmath>
 
 #include "read/number.hpp"
 
@@ -79,6 +82,23 @@ std::optional<double> iso_time(std::string_view text) {
   if (!take(text, 'T') && !take(text, 't') && !take(text, ' ')) return {};
   const auto seconds = take_time(text);
   return seconds ? std::optional(86400 * days + *seconds) : std::nullopt;
+}
+
+std::string iso_text(double seconds) {
+  constexpr double microseconds = 1e6, day = 86400 * microseconds;
+  const double whole = std::round(seconds * microseconds), days = std::floor(whole / day);
+  if (!std::isfinite(seconds) || std::abs(days) > 4e6) return "";
+  using namespace std::chrono;
+  const year_month_day date{sys_days{std::chrono::days{static_cast<int>(days)}}};
+  auto text = fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
+                          static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  const auto rest = static_cast<long long>(whole - days * day);
+  if (rest == 0) return text;
+  const auto clock = rest / 1'000'000, part = rest % 1'000'000;
+  text += fmt::format("T{:02}:{:02}:{:02}", clock / 3600, clock / 60 % 60, clock % 60);
+  if (part == 0) return text;
+  text += fmt::format(".{:06}", part);
+  return text.erase(text.find_last_not_of('0') + 1);
 }
 
 }  // namespace chute::read

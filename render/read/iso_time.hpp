@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace chute::read {
@@ -8,5 +9,8 @@ namespace chute::read {
 /// an offset such as `+01:00` at its end. Seconds since the begin of 1970 in universal time, which is also taken where nothing
 /// is said. Nothing if the text is something else, or a day or a time that does not exist.
 std::optional<double> iso_time(std::string_view text);
+
+/// The same time as text, in universal time and to a microsecond: a date alone at midnight. Years 0 to 9999; not a number becomes nothing.
+std::string iso_text(double seconds);
 
 }  // namespace chute::read

@@ -295,7 +295,7 @@ PointSet Reader::read() {
     if (keyword == "DATASET") {
       const std::string type = upper(word());
       if (type != "POLYDATA" && type != "UNSTRUCTURED_GRID")
-        fail(fmt::format("DATASET {}, expected POLYDATA or UNSTRUCTURED_GRID", type));
+        throw NotTaken(fmt::format("DATASET {}, expected POLYDATA or UNSTRUCTURED_GRID", type));
     } else if (keyword == "FIELD") {
       field(data_ ? *data_ : result_.field_arrays, data_ != nullptr);
     } else if (keyword == "POINTS") {
@@ -322,7 +322,7 @@ PointSet Reader::read() {
                keyword == "PEDIGREE_IDS" || keyword == "COLOR_SCALARS" || keyword == "LOOKUP_TABLE") {
       attribute(keyword);
     } else {
-      fail(fmt::format("\"{}\" is not understood", next.substr(0, 40)));
+      throw NotTaken(fmt::format("damaged or cut short: \"{}\" is not understood", next.substr(0, 40)));
     }
   }
   if (!has_points) fail("no POINTS");

@@ -6,6 +6,7 @@
 #include "read/byte_stream.hpp"
 #include "read/text_frames.hpp"
 #include "read/vtk_points.hpp"
+#include "read/vtk_process.hpp"
 #include "read/xml_check.hpp"
 
 namespace chute::read {
@@ -27,8 +28,9 @@ std::vector<FileBytes> read_parts(const std::filesystem::path& path) {
   for (const auto& source : *sources) {
     const auto part = path.parent_path() / source;
     files.push_back({part, read_unpacked(part)});
-    if (part_sources(files.back().bytes))
-      throw InputError(fmt::format("{}: its part {} is an index itself", path.string(), source));
+    if (!part_sources(files.back().bytes)) continue;
+    if (has_vtk_process()) return {{path, std::move(bytes)}};  // VTK follows blocks in blocks
+    throw InputError(fmt::format("{}: its part {} is an index itself", path.string(), source));
   }
   return files;
 }

@@ -110,7 +110,14 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 bool is_vtk(const fs::path& path) {
   const auto extension = path.extension();
-  constexpr std::string_view known[] = {".vtp", ".vtu", ".vtk", ".vti"};
+  constexpr std::string_view known[] = {".vtp", ".vtu", ".vtk", ".vti", ".vts", ".vtr"};
+  return std::find(std::begin(known), std::end(known), extension) != std::end(known);
+}
+
+/// Names the parts of one time, which are no frames then.
+bool is_index_of_parts(const fs::path& path) {
+  const auto extension = path.extension();
+  constexpr std::string_view known[] = {".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
@@ -135,14 +142,16 @@ std::vector<FrameFile> text_frames(const std::vector<fs::path>& files) {
 }
 
 std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pattern) {
-  std::vector<std::string> names, others;
+  std::vector<std::string> names, indexes, others;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory.empty() ? "." : directory, error)) {
     const auto name = entry.path().filename().string();
     // LIGGGHTS writes its walls' box beside every dump
     if (name.starts_with('.') || name.find("boundingBox") != std::string::npos) continue;
-    if (fnmatch(pattern.c_str(), name.c_str(), 0) == 0) (is_vtk(name) ? names : others).push_back(name);
+    if (fnmatch(pattern.c_str(), name.c_str(), 0) == 0)
+      (is_index_of_parts(name) ? indexes : is_vtk(name) ? names : others).push_back(name);
   }
+  if (!indexes.empty()) names = indexes;
   if (names.empty()) {
     std::sort(others.begin(), others.end(), natural_less);
     std::vector<fs::path> texts;
@@ -218,8 +227,9 @@ std::vector<FrameFile> read_series_index(const fs::path& path) {
 std::vector<FrameFile> find_frames(const fs::path& source) {
   auto frames = frames_of(source);
   if (frames.empty())
-    throw InputError(source.string() +
-                     ": no frames: no VTK file (.vtp, .vtu, .vtk, .vti), dump or XYZ file is there");
+    throw InputError(
+        source.string() +
+        ": no frames: no VTK file (.vtp, .vtu, .vtk, .vti, .vts, .vtr), dump or XYZ file is there");
   for (auto& frame : frames)
     frame.contacts = find_beside(frame, (fs::path("contacts") / frame.path.filename()).string());
   return frames;

@@ -128,6 +128,8 @@ Table parse_table(std::string_view text, const std::filesystem::path& name) {
       if (std::find(table.header.begin(), cell, *cell) != cell)
         fail(fmt::format("two columns are called \"{}\"", *cell));
   };
+  if (text.find('\0') != text.npos)
+    throw InputError(name.string() + ": no table: it holds bytes that are no text");
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   table.separator = separator_of(text);
@@ -188,6 +190,15 @@ std::vector<double> Table::column(std::string_view name) const {
       throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number", file.string(), lines[i], name, cell));
     values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
+  return values;
+}
+
+std::vector<double> Table::values(std::string_view name) const {
+  if (!is_time(name)) return column(name);
+  std::vector<double> values;
+  const auto at = index(name);
+  for (const auto& row : rows)
+    values.push_back(iso_time(row[at]).value_or(std::numeric_limits<double>::quiet_NaN()));
   return values;
 }
 

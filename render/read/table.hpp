@@ -30,6 +30,9 @@ struct Table {
   /// A column as numbers; an empty cell, N/A, NA, NaN, null or a dash is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column
   /// or a cell that is no number.
   std::vector<double> column(std::string_view name) const;
+  /// The same, but dates and times of day, too, as seconds since the begin of 1970.
+  std::vector<double> values(std::string_view name) const;
+  bool is_time(std::string_view name) const { return summary(name).type == ColumnSummary::Type::time; }
   /// Whether `column` can read it.
   bool is_number(std::string_view name) const;
   /// A column as it stands.

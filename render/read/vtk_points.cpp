@@ -7,10 +7,8 @@
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
@@ -22,7 +20,6 @@
 
 #include <algorithm>
 #include <istream>
-#include <mutex>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -33,67 +30,12 @@
 #include "common/fields.hpp"
 #include "read/image_data.hpp"
 #include "read/legacy_vtk.hpp"
+#include "read/vtk_complaints.hpp"
+#include "read/vtk_process.hpp"
 #include "read/xml_check.hpp"
 
 namespace chute::read {
 namespace {
-
-/// The first thing that VTK complained of while this thread read a file.
-thread_local std::string complaint;
-
-/// Where VTK sends its complaints: kept, not printed.
-class Complaints : public vtkOutputWindow {
- public:
-  static Complaints* New();
-  vtkTypeMacro(Complaints, vtkOutputWindow);
-  void DisplayText(const char*) override {}
-  void DisplayErrorText(const char* text) override { keep(text); }
-  void DisplayWarningText(const char*) override {}
-  void DisplayGenericWarningText(const char*) override {}
-  void DisplayDebugText(const char*) override {}
-
- private:
-  void keep(const char* text) {
-    std::string& first = complaint;
-    if (!first.empty()) return;
-    // "ERROR: In FILE, line N\nvtkClass (0x…): what is wrong\n"
-    std::string_view what = text;
-    if (what.starts_with("ERROR:")) what.remove_prefix(std::min(what.find('\n') + 1, what.size()));
-    if (const auto address = what.find("): "); what.starts_with("vtk") && address != std::string_view::npos)
-      what.remove_prefix(address + 3);
-    for (char c : what) first += c == '\n' || c == '\r' ? ' ' : c;
-    first.erase(first.find_last_not_of(" .") + 1);
-    if (first.empty()) first = "VTK cannot read it";
-    if (first.size() > 160) first = first.substr(0, 157) + "...";
-  }
-};
-vtkStandardNewMacro(Complaints);
-
-/// Sends VTK's complaints to `complaint` while one of these lives in any thread. Its logger would print them, too.
-class Listening {
- public:
-  Listening() {
-    complaint.clear();
-    const std::lock_guard lock(mutex_);
-    if (count_++ > 0) return;
-    before_ = vtkOutputWindow::GetInstance(), verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
-    vtkOutputWindow::SetInstance(vtkNew<Complaints>());
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~Listening() {
-    const std::lock_guard lock(mutex_);
-    if (--count_ > 0) return;
-    vtkOutputWindow::SetInstance(before_);
-    vtkLogger::SetStderrVerbosity(verbosity_);
-    before_ = nullptr;
-  }
-
- private:
-  static inline std::mutex mutex_;
-  static inline int count_ = 0;
-  static inline vtkSmartPointer<vtkOutputWindow> before_;
-  static inline vtkLogger::Verbosity verbosity_{};
-};
 
 using Wanted = std::function<bool(std::string_view)>;
 
@@ -216,11 +158,30 @@ PointSet parse_xml(std::string& bytes, bool polydata, const Wanted& wanted) {
   std::vector<std::string> names;
   const auto set = polydata ? read_xml<vtkXMLPolyDataReader>(bytes, wanted, names)
                             : read_xml<vtkXMLUnstructuredGridReader>(bytes, wanted, names);
-  if (!complaint.empty()) throw std::runtime_error(complaint);
+  if (!Listening::complaint().empty()) throw std::runtime_error(Listening::complaint());
   if (!set) throw std::runtime_error("VTK cannot read it");
   auto result = copied(set);
   result.point_names = std::move(names);
   return result;
+}
+
+/// Types of files of VTK's own that other readers than those here take. Image data are fields.
+bool is_vtk_type(std::string_view type) {
+  constexpr std::string_view known[] = {"StructuredGrid",
+                                        "RectilinearGrid",
+                                        "PStructuredGrid",
+                                        "PRectilinearGrid",
+                                        "PPolyData",
+                                        "PUnstructuredGrid",
+                                        "vtkMultiBlockDataSet",
+                                        "vtkPartitionedDataSet",
+                                        "vtkPartitionedDataSetCollection"};
+  return std::find(std::begin(known), std::end(known), type) != std::end(known);
+}
+
+PointSet only(PointSet set, const Wanted& wanted) {
+  std::erase_if(set.point_arrays, [&](const PointArray& array) { return !wanted(array.name); });
+  return set;
 }
 
 /// A legacy file has to be read from end to end; what is not wanted is dropped.
@@ -237,13 +198,17 @@ PointSet parse_vtk(std::string bytes, const std::filesystem::path& path, const W
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   if (bytes.empty()) fail("the file is empty");
   const auto [is_xml, type] = xml_head(bytes);
-  if (is_xml && type != "PolyData" && type != "UnstructuredGrid")
-    fail(fmt::format("a VTK file of type {}, expected PolyData or UnstructuredGrid", type));
+  const bool other = is_xml && type != "PolyData" && type != "UnstructuredGrid";
+  if (other && is_vtk_type(type) && has_vtk_process()) return only(read_by_vtk(path), wanted);
+  if (other) fail(fmt::format("a VTK file of type \"{}\", expected PolyData or UnstructuredGrid", type));
   if (!is_xml && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
   if (is_xml) bytes.resize(without_tail(bytes).size());
   PointSet result;
   try {
     result = is_xml ? parse_xml(bytes, type == "PolyData", wanted) : parse_legacy(bytes, wanted);
+  } catch (const NotTaken& error) {
+    if (has_vtk_process()) return only(read_by_vtk(path), wanted);
+    fail(error.what());
   } catch (const std::bad_alloc&) {
     fail("damaged: it asks for more memory than there is");
   } catch (const std::runtime_error& error) {
@@ -296,7 +261,7 @@ ImageData parse_image_data(std::string bytes, const std::filesystem::path& path)
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   if (bytes.empty()) fail("the file is empty");
   if (const auto [is_xml, type] = xml_head(bytes); type != "ImageData")
-    fail(is_xml ? fmt::format("a VTK file of type {}, expected ImageData", type)
+    fail(is_xml ? fmt::format("a VTK file of type \"{}\", expected ImageData", type)
                 : "not a VTK file of image data (.vti)");
   bytes.resize(without_tail(bytes).size());
   if (const auto fault = xml_fault(bytes); !fault.empty()) fail("damaged or cut short: " + fault);
@@ -307,7 +272,7 @@ ImageData parse_image_data(std::string bytes, const std::filesystem::path& path)
     reader->read(bytes);
     reader->Update();
     auto* data = vtkImageData::SafeDownCast(reader->GetOutputAsDataSet());
-    if (!complaint.empty()) throw std::runtime_error(complaint);
+    if (!Listening::complaint().empty()) throw std::runtime_error(Listening::complaint());
     if (reader->GetErrorCode() != 0 || !data) throw std::runtime_error("VTK cannot read it");
     int extent[6];
     data->GetExtent(extent);

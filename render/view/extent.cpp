@@ -80,13 +80,14 @@ Extent::View Extent::view(int up, const Eigen::Matrix3d& turn, double shape, boo
                                        at[axis] <= grains_above.max()[axis] + bead.radius));
     if (below) box.extend((at.array() - bead.radius).matrix()).extend((at.array() + bead.radius).matrix());
   }
-  if (shape > 0) {
+  if (shape > 0 && !fixed_.kept.empty()) {
+    const auto bed = box_of(fixed_.kept, turn, 0);
     const bool wide = box.sizes().x() > shape * box.sizes().y();
     const int axis = wide ? 1 : 0;
     const double length = wide ? box.sizes().x() / shape : box.sizes().y() * shape;
     const double middle = box.center()[axis];
-    box.min()[axis] = std::min(box.min()[axis], std::max(whole.min()[axis], middle - length / 2));
-    box.max()[axis] = std::max(box.max()[axis], std::min(whole.max()[axis], middle + length / 2));
+    box.min()[axis] = std::min(box.min()[axis], std::max(bed.min()[axis], middle - length / 2));
+    box.max()[axis] = std::max(box.max()[axis], std::min(bed.max()[axis], middle + length / 2));
   }
   for (const auto& grain : moving_.kept)
     if (!box.contains(turn * grain.centre)) view.outside += moving_.stride;

