@@ -85,14 +85,15 @@ std::optional<double> iso_time(std::string_view text) {
 }
 
 std::string iso_text(double seconds) {
-  constexpr double microseconds = 1e6, day = 86400 * microseconds;
-  const double whole = std::round(seconds * microseconds), days = std::floor(whole / day);
-  if (!std::isfinite(seconds) || std::abs(days) > 4e6) return "";
+  constexpr double day = 86400, microseconds = 1e6, most_days = 4e6;
+  double days = std::floor(seconds / day);
+  if (!std::isfinite(seconds) || std::abs(days) > most_days) return "";
+  auto rest = std::llround((seconds - days * day) * microseconds);
+  if (rest == std::llround(day * microseconds)) rest = 0, days += 1;
   using namespace std::chrono;
   const year_month_day date{sys_days{std::chrono::days{static_cast<int>(days)}}};
   auto text = fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
                           static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
-  const auto rest = static_cast<long long>(whole - days * day);
   if (rest == 0) return text;
   const auto clock = rest / 1'000'000, part = rest % 1'000'000;
   text += fmt::format("T{:02}:{:02}:{:02}", clock / 3600, clock / 60 % 60, clock % 60);

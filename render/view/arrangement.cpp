@@ -18,6 +18,7 @@ constexpr double gap = 1.5;         // between the scene and what stands beside 
 constexpr double bar_width = 0.85;  // of the colours
 constexpr double label_gap = 0.5;   // colours to numbers
 constexpr double longest_bar = 20;
+constexpr double kind_row = 1.2;  // a kind's name below another, at least
 constexpr double gravity_width = 4.4, gravity_height = 5.0;
 constexpr double plot_width = 17, plot_height = 10;  // at least, of a plot beside or below the scene
 constexpr double least_scene = 6;                    // its longer side, where a plot takes room
@@ -53,7 +54,9 @@ Fit beside(Arrangement places, double width, double height, double aspect, const
 
   // the panel is as high as the scene if that is enough for a bar and the arrows
   const double x = left + w + space;
-  const double least = em * ((places.has_bar ? 8.5 : 0) + (places.has_gravity ? gravity_height : 0));
+  const double kinds = kind_row * texts.rows;
+  const double least =
+      em * ((places.has_bar ? std::max(8.5, 2 + kinds) : 0) + (places.has_gravity ? gravity_height : 0));
   const double extra = std::max(0.0, least - h) / 2;
   const double panel_top = std::max(margin * em, above - extra);
   const double panel_bottom = std::min(height - margin * em, above + h + extra);
@@ -63,7 +66,7 @@ Fit beside(Arrangement places, double width, double height, double aspect, const
   const double bar_bottom = panel_bottom - (places.has_gravity ? gravity_height + 1.2 : 0.2) * em;
   places.bar = {x, bar_top, x + bar_width * em, std::min(bar_bottom, bar_top + longest_bar * em)};
   places.upright_bar = true;
-  return {places, places.bar.height() < 5 * em && places.has_bar ? 0.0 : w};
+  return {places, places.bar.height() < std::max(5.0, kinds) * em && places.has_bar ? 0.0 : w};
 }
 
 Fit below(Arrangement places, double width, double height, double aspect, const BarTexts& texts) {

@@ -26,6 +26,7 @@ struct Arrangement {
 struct BarTexts {
   double title = 0, longest_label = 0;
   double kinds = 0;  ///< of all patches and names in one row, where kinds stand in place of the bar
+  double rows = 0;   ///< how many these are: one below the other beside the scene
 };
 
 /// `aspect` = width / height of what is to be seen. InputError if the picture is too small for the plot that is wanted.

@@ -142,7 +142,8 @@ Furniture::Furniture(const Studio& studio, double aspect)
       measure(label),
           kinds += plot::set_text(label, small * size).width / size + patch + patch_gap + kind_gap;
   }
-  places_ = arrange(style_, survey_, aspect, {title, labels, kinds});
+  places_ =
+      arrange(style_, survey_, aspect, {title, labels, kinds, static_cast<double>(kind_labels().size())});
   if (places_.has_plot)
     plot_.emplace(survey_.series, survey_.units, style_.background, places_.plot, places_.em);
 }
@@ -158,10 +159,12 @@ std::vector<std::string> Furniture::kind_labels() const {
 
 /// A patch of each kind's colour with its name or number: from the top of the bar's place downwards, or in rows from its left end.
 void Furniture::draw_kinds(DisplayList& list) const {
-  const double em = places_.em, size = small * em;
   const bool upright = places_.upright_bar;
   const auto labels = kind_labels();
-  const double step = std::min(1.7 * em, places_.bar.height() / static_cast<double>(labels.size()));
+  const double em = places_.em,
+               step = std::min(1.7 * em, places_.bar.height() / static_cast<double>(labels.size()));
+  // where a small picture has no room, the texts are small, too, but do not touch
+  const double size = upright ? std::min(small * em, 0.85 * step) : small * em;
   const double side = upright ? std::min(patch * em, 0.8 * step) : patch * em;
   Point corner{places_.bar.left, places_.bar.top};
   for (std::size_t i = 0; i < labels.size(); ++i) {

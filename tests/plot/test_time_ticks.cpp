@@ -31,11 +31,14 @@ std::vector<std::string> labels(const plot::Ticks& t) {
 
 TEST_CASE("Axes of dates have ticks where calendars and clocks have them") {
   using Texts = std::vector<std::string>;
-  CHECK(labels(ticks("1990-01-01", "2031-01-01")) == Texts{"1990", "2000", "2010", "2020", "2030"});
+  CHECK(labels(ticks("1990-01-01", "2031-01-01")) ==
+        Texts{"1990", "1995", "2000", "2005", "2010", "2015", "2020", "2025", "2030"});
   const auto quarters = ticks("2026-01-01", "2026-12-31");
   CHECK(labels(quarters) == Texts{"01", "03", "05", "07", "09", "11"});
   CHECK(quarters.factor == "2026");
-  CHECK(labels(ticks("2025-10-20", "2026-04-20")) == Texts{"2025-12", "2026-02", "2026-04"});
+  CHECK(labels(ticks("1990-01-01", "2031-01-01", 120)) == Texts{"1990", "2000", "2010", "2020", "2030"});
+  CHECK(labels(ticks("2025-10-20", "2026-04-20")) ==
+        Texts{"2025-11", "2025-12", "2026-01", "2026-02", "2026-03", "2026-04"});
   CHECK(labels(ticks("2026-02-26", "2026-03-03T12:00")) ==
         Texts{"02-26", "02-27", "02-28", "03-01", "03-02", "03-03"});
   const auto hours = ticks("2026-03-07T05:30", "2026-03-07T18:00");

@@ -84,7 +84,7 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
   const double title = 2.6, labels = 1.8;
   view::Arrangement places;
   try {
-    places = view::arrange(style, survey, aspect, {title, labels, GENERATE(0.0, 12.0)});
+    places = view::arrange(style, survey, aspect, {title, labels, GENERATE(0.0, 12.0), 0});
   } catch (const InputError& error) {  // a plot beside the grains wants its room
     CHECK_THAT(error.what(), Contains("too small for a plot"));
     CHECK((!survey.series.empty() && width < 400));
