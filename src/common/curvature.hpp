@@ -53,7 +53,7 @@ inline std::vector<std::pair<double, double>> by_curvature(const std::function<d
   return points;
 }
 
-/// The points of a finely sampled curve that are needed to draw it: the ends, and wherever it would pass by more than is unseen
+/// The points of a finely sampled curve that are needed to draw it: the ends, the least and the greatest, and wherever it would pass by more than is unseen
 /// from the line through the others (Douglas & Peucker 1973, distances along y).
 inline std::vector<std::size_t> needed_points(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<std::size_t> kept;
@@ -62,7 +62,11 @@ inline std::vector<std::size_t> needed_points(const std::vector<double>& x, cons
   const double allowed = unseen_bend * (*high - *low);
   std::vector<bool> needed(x.size(), false);
   needed.front() = needed.back() = true;
-  std::vector<std::pair<std::size_t, std::size_t>> open{{0, x.size() - 1}};
+  needed[static_cast<std::size_t>(low - y.begin())] = needed[static_cast<std::size_t>(high - y.begin())] =
+      true;
+  std::vector<std::pair<std::size_t, std::size_t>> open;
+  for (std::size_t i = 1, from = 0; i < x.size(); ++i)
+    if (needed[i]) open.emplace_back(from, i), from = i;
   while (!open.empty()) {
     const auto [from, to] = open.back();
     open.pop_back();

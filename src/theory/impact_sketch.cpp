@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "theory/theory_figures.hpp"
 
@@ -16,6 +19,21 @@ class Sketch {
   void line(const char* panel, const char* series, double x0, double y0, double x1, double y1) {
     table_.rows.push_back({panel, series, x0, y0});
     table_.rows.push_back({panel, series, x1, y1});
+  }
+  /// A line with a head of two strokes at its end.
+  void arrow(const char* panel, const char* series, double x0, double y0, double x1, double y1) {
+    constexpr double head = 0.14, opening = 0.4;  // in bead radii; rad
+    line(panel, series, x0, y0, x1, y1);
+    const double back = std::atan2(y0 - y1, x0 - x1);
+    for (const double side : {-opening, opening}) {
+      table_.rows.push_back(
+          {panel, series, x1 + head * std::cos(back + side), y1 + head * std::sin(back + side)});
+      table_.rows.push_back({panel, series, x1, y1});
+    }
+  }
+  void rectangle(const char* panel, const char* series, double x0, double y0, double x1, double y1) {
+    for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}})
+      table_.rows.push_back({panel, series, x, y});
   }
   /// From angle `from` to `to`, anticlockwise from the x axis.
   void arc(const char* panel, const char* series, double x, double y, double radius, double from, double to) {
@@ -58,6 +76,103 @@ FigureTable compute_fig_4_31(const FigureContext&) {
   sketch.line("b", "axis z", 0, 0, 0, 4.5);
   sketch.line("b", "normal", 0, 0, x, z);
   sketch.arc("b", "angle", 0, 0, 1.6, pi / 2, pi / 2 + gamma);
+  return table;
+}
+
+/// Two discs that meet: n leads from i to j, s lies across it (1.10, 1.11).
+FigureTable compute_fig_1_04(const FigureContext&) {
+  constexpr double R_i = 1, R_j = 0.75, along = 25 * pi / 180;
+  const double n_x = std::cos(along), n_y = std::sin(along), x = (R_i + R_j) * n_x, y = (R_i + R_j) * n_y;
+  FigureTable table;
+  table.comments = {
+      "x: in radii of grain i", "y: in radii of grain i",
+      "n leads from i to j (1.10), s lies in the contact plane (1.11); theta: between n and the relative velocity"};
+  Sketch sketch(table);
+  sketch.arc("", "grain i", 0, 0, R_i, 0, 2 * pi);
+  sketch.arc("", "grain j", x, y, R_j, 0, 2 * pi);
+  sketch.line("", "axis centres", 0, 0, x, y);
+  sketch.arrow("", "normal n", R_i * n_x, R_i * n_y, (R_i + 0.65) * n_x, (R_i + 0.65) * n_y);
+  sketch.arrow("", "normal s", R_i * n_x, R_i * n_y, R_i * n_x + 0.65 * n_y, R_i * n_y - 0.65 * n_x);
+  constexpr double way = 62 * pi / 180;
+  sketch.arrow("", "velocity i", 0, 0, 0.75 * std::cos(way), 0.75 * std::sin(way));
+  sketch.arrow("", "velocity j", x, y, x - 0.6, y + 0.1);
+  sketch.arc("", "angle", 0, 0, 0.4, along, way);
+  sketch.arc("", "spin i", 0, 0, 0.8, 1.1 * pi, 1.5 * pi);
+  sketch.arc("", "spin j", x, y, 0.55, 1.5 * pi, 1.9 * pi);
+  return table;
+}
+
+/// The cylinder of 3.2 that a block pushes along a plane, and the forces on it.
+FigureTable compute_fig_3_09(const FigureContext&) {
+  FigureTable table;
+  table.comments = {
+      "x: in radii of the cylinder", "y: in radii of the cylinder",
+      "forces on the cylinder: F_s^p of the plane, F_s^b of the block, m g; F_p pushes the block"};
+  Sketch sketch(table);
+  sketch.line("", "plane", -3.2, 0, 2, 0);
+  sketch.arc("", "cylinder", 0, 1, 1, 0, 2 * pi);
+  sketch.rectangle("", "block", -2.1, 0.45, -1, 1.55);
+  sketch.arrow("", "force F_p", -3, 1, -2.1, 1);
+  sketch.arrow("", "force F_s^b", -1, 1, -1, 0.35);
+  sketch.arrow("", "force F_s^p", 0, 0, -0.65, 0);
+  sketch.arrow("", "force m g", 0, 1, 0, 0.4);
+  sketch.arrow("", "way v", 0, 1, 0.65, 1);
+  sketch.arc("", "spin", 0, 1, 0.75, 0.85 * pi, 0.3 * pi);
+  return table;
+}
+
+namespace {
+
+/// Beads of radius 1 and a ball on a line, in the frame of the line, then turned downhill by `slope`.
+void add_line_of_beads(Sketch& sketch, double slope, double gap, double size_ratio, int from, int to) {
+  const auto turned = [slope](double x, double z) {
+    return std::pair{x * std::cos(slope) + z * std::sin(slope), -x * std::sin(slope) + z * std::cos(slope)};
+  };
+  const double pitch = 2 * (1 + gap);
+  for (int k = from; k <= to; ++k) {
+    const auto [x, z] = turned(pitch * k, 0);
+    sketch.arc("", fmt::format("bead {}", k - from + 1).c_str(), x, z, 1, 0, 2 * pi);
+  }
+  const auto [x, z] = turned(-pitch / 2, std::sqrt((1 + size_ratio) * (1 + size_ratio) - pitch * pitch / 4));
+  sketch.arc("", "ball", x, z, size_ratio, 0, 2 * pi);
+}
+
+}  // namespace
+
+/// The set-up of chapter 4: a ball of radius R = Φ r on a rough incline.
+FigureTable compute_fig_4_01(const FigureContext&) {
+  constexpr double slope = 0.3, size_ratio = 2;
+  FigureTable table;
+  table.comments = {"x: horizontal, in bead radii", "y: vertical, in bead radii",
+                    "R = 2 r, theta = 0.3, touching beads"};
+  Sketch sketch(table);
+  add_line_of_beads(sketch, slope, 0, size_ratio, -3, 3);
+  const double s = std::sin(slope), c = std::cos(slope);
+  sketch.line("", "plane", -8 * c - s, 8 * s - c, 8 * c - s, -8 * s - c);
+  sketch.line("", "axis level", 8 * c - s, -8 * s - c, 2, -8 * s - c);
+  sketch.arc("", "angle", 8 * c - s, -8 * s - c, 4, pi - slope, pi);
+  sketch.arrow("", "way x", 3.5 * c + 2.2 * s, -3.5 * s + 2.2 * c, 5.3 * c + 2.2 * s, -5.3 * s + 2.2 * c);
+  sketch.arrow("", "way z", 3.5 * c + 2.2 * s, -3.5 * s + 2.2 * c, 3.5 * c + 4 * s, -3.5 * s + 4 * c);
+  sketch.arrow("", "gravity", 5.8, 4.4, 5.8, 2.6);
+  return table;
+}
+
+/// The angle γ at its most negative value, (4.21): the ball lies on the bead behind when it hits the next.
+FigureTable compute_fig_4_03(const FigureContext&) {
+  constexpr double gap = 0.25, size_ratio = 2;
+  FigureTable table;
+  table.comments = {
+      "x: along the line, in bead radii", "y: away from it, in bead radii",
+      "R = 2 r, eps = 0.25; gamma is negative on the uphill side of a bead; sin gamma_max = (1 + eps)/(1 + Phi) (4.21)"};
+  Sketch sketch(table);
+  add_line_of_beads(sketch, 0, gap, size_ratio, -2, 1);
+  const double x = -(1 + gap), z = std::sqrt((1 + size_ratio) * (1 + size_ratio) - x * x);
+  sketch.line("", "axis z", 0, 0, 0, 4.2);
+  sketch.line("", "normal", 0, 0, x, z);
+  sketch.arc("", "angle", 0, 0, 1.7, pi / 2, pi / 2 + std::asin(-x / (1 + size_ratio)));
+  sketch.line("", "axis gap from", 1, -1.5, 1, -0.6);
+  sketch.line("", "axis gap to", 1 + 2 * gap, -1.5, 1 + 2 * gap, -0.6);
+  sketch.arrow("", "way", x, z, x + 1.6, z - 0.35);
   return table;
 }
 

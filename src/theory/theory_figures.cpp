@@ -274,6 +274,8 @@ FigureTable compute_theory_4_32(const FigureContext& context) {
 
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& theory_figures() {
   static const std::map<std::string, std::function<FigureTable(const FigureContext&)>> all{
+      {"fig-1-04", compute_fig_1_04},       {"fig-3-09", compute_fig_3_09},
+      {"fig-4-01", compute_fig_4_01},       {"fig-4-03", compute_fig_4_03},
       {"fig-4-04", compute_fig_4_04},       {"fig-4-19", compute_fig_4_19},
       {"fig-4-31", compute_fig_4_31},       {"theory-4-17", compute_theory_4_17},
       {"theory-4-18", compute_theory_4_18}, {"theory-4-20", compute_theory_4_20},

@@ -11,8 +11,13 @@ namespace chute::theory {
 using figures::FigureContext;
 using figures::FigureTable;
 
-FigureTable compute_fig_4_04(const FigureContext& context);     ///< the stochastic model, <v_x>(sin θ)
-FigureTable compute_fig_4_19(const FigureContext& context);     ///< v̄_x, exact and linear
+FigureTable compute_fig_4_04(const FigureContext& context);  ///< the stochastic model, <v_x>(sin θ)
+FigureTable compute_fig_4_19(const FigureContext& context);  ///< v̄_x, exact and linear
+FigureTable compute_fig_1_04(const FigureContext& context);  ///< sketch: the geometry of an impact
+FigureTable compute_fig_3_09(const FigureContext& context);  ///< sketch: the pushed cylinder
+FigureTable compute_fig_4_01(const FigureContext& context);  ///< sketch: a ball on an incline
+FigureTable compute_fig_4_03(
+    const FigureContext& context);  ///< sketch: the line of beads, and the impact angle
 FigureTable compute_fig_4_31(const FigureContext& context);     ///< what the impact angles γ and φ are
 FigureTable compute_theory_4_17(const FigureContext& context);  ///< v̄_x(sin θ), ε = 0
 FigureTable compute_theory_4_18(const FigureContext& context);  ///< v̄_x(sin θ), mean gap 0.1
