@@ -156,7 +156,8 @@ Json describe_file(const fs::path& path) {
   if (fs::is_directory(path)) return of_run(path);
   if (extension == ".csv") return of_table(path);
   if (const auto format = read::text_format_of(path)) return of_text_frames(path, *format);
-  constexpr std::array point_files{".vtp", ".vtu", ".vtk", ".vts", ".vtr", ".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm"};
+  constexpr std::array point_files{".vtp",  ".vtu",  ".vtk",  ".vts",  ".vtr",
+                                   ".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm"};
   if (std::find(point_files.begin(), point_files.end(), extension) != point_files.end()) return of_vtk(path);
   throw InputError(fmt::format("{}: neither a run directory nor a {} or .csv file, a dump or an XYZ file",
                                path.string(), fmt::join(point_files, ", ")));
