@@ -68,7 +68,7 @@ class SeriesPainter {
  public:
   SeriesPainter(Painter& painter, const Frame& frame, const Series& series, const SeriesLook& ink)
       : look_(ink.of(painter.look)),
-        p_{painter.list, look_, painter.occupied},
+        p_{painter.list, look_, painter.occupied, painter.panel, painter.over_map},
         frame_(frame),
         s_(series),
         ink_(ink) {}

@@ -54,23 +54,24 @@ void run(const RunArguments& arguments) {
   options.threads = arguments.threads;
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.command_line = command_line();
+  // An interrupted run leaves a checkpoint, so that --resume goes on from there.
+  watch_for_interrupt();
   if (experiments::is_experiment(input.text, input.name)) return experiment(arguments, input, options);
   const auto scene = arguments.resume
                          ? run::parse_to_go_on(input.text, input.name, arguments.settings, options.directory)
                          : scene::parse_scene(input.text, input.name, arguments.settings);
-  if (!arguments.quiet)
+  // A run that goes on was told both when it began.
+  if (!arguments.quiet && !arguments.resume) {
     for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);
-  if (!arguments.quiet)
     for (const auto& line : scene.chosen)
       if (line.starts_with("contact.")) tell("chosen: {}\n", line);
+  }
   Progress progress("run", arguments.quiet);
   options.progress = [&](double part) {
     progress.show(part);
     return !interrupted();
   };
   options.warn = [](const std::string& what) { tell("warning: {}\n", what); };
-  // An interrupted run leaves a checkpoint, so that --resume goes on from there.
-  watch_for_interrupt();
   const auto result = run::run_scene(scene, options);
   if (!result.finished)
     throw WorkError(fmt::format("stopped; go on with: chute run {} --resume", options.directory.string()));

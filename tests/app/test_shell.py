@@ -55,7 +55,7 @@ class Shell(unittest.TestCase):
         found = json.loads(self.run_chute("check", "--json", "tiny.toml", "-", given=TINY).stdout)
         self.assertEqual([scene["file"] for scene in found["scenes"]], ["tiny.toml", "standard-input"])
         scene = found["scenes"][0]
-        self.assertEqual(set(scene), {"file", "scene", "facts", "warnings"})
+        self.assertEqual(set(scene), {"file", "scene", "facts", "chosen", "warnings"})
         self.assertEqual(scene["scene"]["grains"]["count"], 8)
         theta = [fact for fact in scene["facts"] if fact["name"] == "theta"]
         self.assertAlmostEqual(theta[0]["value"], 18)

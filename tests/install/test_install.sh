@@ -35,7 +35,7 @@ complete_words() {
 }
 [[ $(complete_words chute ren) == render ]] || fail "bash does not complete the verb ren"
 [[ $(complete_words chute run --res) == --resume ]] || fail "bash does not complete --res of run"
-[[ $(complete_words chute figure fig-1-0) == fig-1-06 ]] || fail "bash does not complete the figure fig-1-0"
+[[ $(complete_words chute figure fig-2-0) == fig-2-02 ]] || fail "bash does not complete the figure fig-2-0"
 
 # In a mount namespace of its own the trees are empty folders; where there may be none, they only are not named.
 use=(bash "$folder/use.sh" "$folder")
