@@ -230,6 +230,18 @@ class Runs(App):
                 return
             time.sleep(0.01)
 
+    def wait_for_handler(self, process):
+        """Until the program catches SIGINT: before that, a signal ends it as it ends any other."""
+        for _ in range(3000):
+            try:
+                status = open(f"/proc/{process.pid}/status").read()
+            except FileNotFoundError:
+                return
+            caught = [int(line.split()[1], 16) for line in status.splitlines() if line.startswith("SigCgt")]
+            if process.poll() is not None or not caught or caught[0] >> (signal.SIGINT - 1) & 1:
+                return
+            time.sleep(0.01)
+
     def test_a_stopped_run_goes_on(self):
         """Stopped by a signal, or killed outright, and resumed: the bytes of a run that nobody disturbed."""
         long = ["--quiet", "--set", "run.duration=400", "--set", "output.frames.every=50", "--set",
@@ -245,6 +257,7 @@ class Runs(App):
                 self.assertEqual(run.communicate()[1], "")
                 break
             self.wait_for(self.path("out", "run.json"))  # before it, a signal ends it with nothing written
+            self.wait_for_handler(run)
             time.sleep(0.3)
             run.send_signal(how)
             said = run.communicate(timeout=60)[1]

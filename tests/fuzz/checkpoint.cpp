@@ -11,15 +11,15 @@ namespace {
 
 /// Small runs of methods that keep different things; the first byte of the input chooses.
 constexpr std::string_view start =
+    "incline.angle = \"18 deg\"\n"
     "bed = { kind = \"row\", count = 6 }\n"
     "grains = { count = 5, diameter.mean = 1 }\n"
-    "run = { duration = 1 }\n";
-constexpr std::array<std::string_view, 4> methods{
-    "[contact]\nnormal = { stiffness = 1000, restitution = 0.6 }\ntangential = { law = \"cundall-strack\", friction = 0.5, "
-    "stiffness_ratio = 0.5 }\n",
-    "[contact]\nrestitution = 0.6\nfriction = 0.5\n[engine]\nmethod = \"event\"\n",
-    "[contact]\nrestitution = 0.6\nfriction = 0.5\n[engine]\nmethod = \"hybrid\"\n",
-    "[contact]\nrestitution = 0\nfriction = 0.5\n[engine]\nmethod = \"contact\"\n"};
+    "run = { duration = 1 }\n"
+    "contact.normal = { stiffness = 1000, restitution = 0.6 }\n"
+    "contact.tangential = { law = \"cundall-strack\", friction = 0.5, stiffness_ratio = 0.5 }\n"
+    "engine.method = ";
+constexpr std::array<std::string_view, 4> methods{"\"soft\"\n", "\"event\"\n", "\"hybrid\"\n",
+                                                  "\"contact\"\n"};
 
 }  // namespace
 

@@ -211,7 +211,7 @@ TEST_CASE("What is no file of grains is refused in one line") {
   SECTION("another kind of VTK data") {
     vtk_files::write({}, folder / "f.vti", Kind::image);
     CHECK_THAT(complaint([&] { read::read_frame(folder / "f.vti"); }),
-               Contains("ImageData, expected PolyData"));
+               Contains("\"ImageData\", expected PolyData"));
   }
   SECTION("missing, or a folder") {
     CHECK_THAT(complaint([&] { read::read_frame(folder / "none.vtp"); }), Contains("none.vtp: cannot read"));
