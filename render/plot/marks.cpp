@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "common/error.hpp"
 #include "plot/map.hpp"
@@ -67,8 +68,8 @@ std::vector<Point> outline_of(const Frame& frame, const Series& s) {
 class SeriesPainter {
  public:
   SeriesPainter(Painter& painter, const Frame& frame, const Series& series, const SeriesLook& ink)
-      : look_(ink.of(painter.look)),
-        p_{painter.list, look_, painter.occupied, painter.panel, painter.over_map},
+      : look_(std::make_shared<const Look>(ink.of(painter.look))),
+        p_{painter.list, *look_, painter.occupied, painter.panel, painter.over_map},
         frame_(frame),
         s_(series),
         ink_(ink) {}
@@ -232,7 +233,7 @@ class SeriesPainter {
   }
 
  private:
-  Look look_;
+  std::shared_ptr<const Look> look_;  // shared: painters are moved, and p_ refers to it
   Painter p_;
   const Frame& frame_;
   const Series& s_;
