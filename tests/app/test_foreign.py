@@ -205,7 +205,7 @@ class View(Foreign):
         rows = ["%d %d 0 0.5" % (i % 40, i // 40) for i in range(400)]
         frame = "%d\nProperties=pos:R:3:radius:R:1\n%s\n"
         self.write("whole.xyz", frame % (400, "\n".join(rows)))
-        self.write("flown.xyz", frame % (401, "\n".join(rows + ["2e3 2e3 0 0.5"])))
+        self.write("flown.xyz", frame % (401, "\n".join(rows + ["300 200 0 0.5"])))
         whole, flown = self.picture("whole.xyz")[0], self.picture("flown.xyz")[0]
         self.assertLess(sum(a != b for a, b in zip(whole, flown)), 30)
         said = self.call("render", "flown.xyz", "-o", "again", "--size", "96x96").stderr
