@@ -180,6 +180,44 @@ class Compare(unittest.TestCase):
         self.assertIn("is drawn by rsvg-convert, which is not here: install librsvg2-bin", said.stderr)
 
 
+class Columns(unittest.TestCase):
+    """Whatever runs write, `chute info --columns` knows what it means."""
+
+    RUNS = {
+        "flow": ["demo.toml", "grains.count=40", "bed.count=12", "run.duration=4", "contact.normal.stiffness=1e4",
+                 "contact.tangential.viscosity=40", "output.frames={every=2}", "output.contacts=true",
+                 "output.profiles={bin=1.0, fine=0.5}", "output.fields={every=0.2}", "output.impacts={from=1}",
+                 "output.impact_histograms={from=1}", "output.velocities={every=0.5}", "output.moments={every=0.5}",
+                 "output.heights={every=0.5}", "output.forces={every=0.5}"],
+        "ball": ["ball-3d.toml", "run.duration=0.2", "grains.independent=true", "grains.count=3",
+                 "output.velocities={every=0.01}", "output.diffusion={every=0.01, longest=0.2}", "output.beads={}",
+                 "output.trapping={every=0.01}", "output.bed=true", "output.frames={every=0.1}"],
+        "gas": ["hard-discs.toml", "run.duration=100", "output.pairs={every=10}"],
+        "pile": ["rice-pile.toml", "run.duration=2000"],
+    }
+
+    def test_all_columns_and_arrays(self):
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        seen = set()
+        for name, (scene, *settings) in self.RUNS.items():
+            run = os.path.join(folder, name)
+            changes = [word for setting in settings for word in ("--set", setting)]
+            done = subprocess.run([chute, "run", os.path.join(sources, "scenes", scene), "-o", run, "--quiet", *changes],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for at, _, files in os.walk(run):
+                for file in files:
+                    if not file.endswith((".csv", ".vtp")) or file == "walls.vtp":
+                        continue
+                    told = subprocess.run([chute, "info", "--columns", os.path.join(at, file)], capture_output=True,
+                                          text=True)
+                    self.assertEqual(told.returncode, 0, told.stderr)
+                    self.assertNotIn("not known:", told.stdout, file)
+                    seen.add(file)
+        self.assertGreater(len(seen), 18, seen)
+
+
 class Keys(unittest.TestCase):
     def test_the_readme_has_the_keys_of_recipes_and_the_columns(self):
         with open(os.path.join(sources, "README.md"), encoding="utf-8") as readme:
