@@ -26,7 +26,9 @@ const char* name(Box::Kind kind) {
   return names[static_cast<int>(kind)];
 }
 
-std::string told(const Box& box) { return fmt::format("{} \"{}\"", name(box.kind), box.text); }
+std::string told(const Box& box) {
+  return box.text.empty() ? name(box.kind) : fmt::format("{} \"{}\"", name(box.kind), box.text);
+}
 
 const Path* path_of(const Item& item) {
   if (const auto* fill = std::get_if<FillItem>(&item)) return &fill->path;

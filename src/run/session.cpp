@@ -131,15 +131,15 @@ std::vector<std::string> Session::load(std::istream& in) {
   engine_->restore(in);
   StateInput archive(in);
   if (run_.files) archive(*run_.files);
-  struct Kept {
+  struct Stored {
     std::string keys, bytes;
   };
-  std::map<std::string, Kept> kept;
+  std::map<std::string, Stored> kept;
   std::size_t count = 0;
   archive(count);
   for (std::size_t k = 0; k < count; ++k) {
     std::string word;
-    Kept one;
+    Stored one;
     archive(word, one.keys, one.bytes);
     kept[word] = std::move(one);
   }

@@ -22,14 +22,15 @@ class Sketch {
   }
   /// A line with a head of two strokes at its end.
   void arrow(const char* panel, const char* series, double x0, double y0, double x1, double y1) {
-    constexpr double head = 0.14, opening = 0.4;  // in bead radii; rad
     line(panel, series, x0, y0, x1, y1);
-    const double back = std::atan2(y0 - y1, x0 - x1);
-    for (const double side : {-opening, opening}) {
-      table_.rows.push_back(
-          {panel, series, x1 + head * std::cos(back + side), y1 + head * std::sin(back + side)});
-      table_.rows.push_back({panel, series, x1, y1});
-    }
+    head(panel, series, x1, y1, std::atan2(y0 - y1, x0 - x1));
+  }
+  /// An arc with a head: the sense in which something turns.
+  void turn(const char* panel, const char* series, double x, double y, double radius, double from,
+            double to) {
+    arc(panel, series, x, y, radius, from, to);
+    head(panel, series, x + radius * std::cos(to), y + radius * std::sin(to),
+         to + (from < to ? -pi : pi) / 2);
   }
   void rectangle(const char* panel, const char* series, double x0, double y0, double x1, double y1) {
     for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}})
@@ -46,6 +47,16 @@ class Sketch {
 
  private:
   FigureTable& table_;
+
+  /// Two strokes from a tip, which opens towards the angle `back`.
+  void head(const char* panel, const char* series, double x, double y, double back) {
+    constexpr double length = 0.14, opening = 0.4;  // in bead radii; rad
+    for (const double side : {-opening, opening}) {
+      table_.rows.push_back(
+          {panel, series, x + length * std::cos(back + side), y + length * std::sin(back + side)});
+      table_.rows.push_back({panel, series, x, y});
+    }
+  }
 };
 
 }  // namespace
@@ -86,19 +97,21 @@ FigureTable compute_fig_1_04(const FigureContext&) {
   FigureTable table;
   table.comments = {
       "x: in radii of grain i", "y: in radii of grain i",
-      "n leads from i to j (1.10), s lies in the contact plane (1.11); theta: between n and the relative velocity"};
+      "n leads from i to j (1.10), s lies in the contact plane (1.11); the angle lies between n and v_i - v_j. As printed, with "
+      "v_j - v_i, (1.15) would be beyond a right angle for all grains that meet"};
   Sketch sketch(table);
   sketch.arc("", "grain i", 0, 0, R_i, 0, 2 * pi);
   sketch.arc("", "grain j", x, y, R_j, 0, 2 * pi);
   sketch.line("", "axis centres", 0, 0, x, y);
   sketch.arrow("", "normal n", R_i * n_x, R_i * n_y, (R_i + 0.65) * n_x, (R_i + 0.65) * n_y);
   sketch.arrow("", "normal s", R_i * n_x, R_i * n_y, R_i * n_x + 0.65 * n_y, R_i * n_y - 0.65 * n_x);
-  constexpr double way = 62 * pi / 180;
-  sketch.arrow("", "velocity i", 0, 0, 0.75 * std::cos(way), 0.75 * std::sin(way));
-  sketch.arrow("", "velocity j", x, y, x - 0.6, y + 0.1);
-  sketch.arc("", "angle", 0, 0, 0.4, along, way);
-  sketch.arc("", "spin i", 0, 0, 0.8, 1.1 * pi, 1.5 * pi);
-  sketch.arc("", "spin j", x, y, 0.55, 1.5 * pi, 1.9 * pi);
+  constexpr double v_i[2] = {0.05, 0.6}, v_j[2] = {-0.4, 0.1}, v[2] = {v_i[0] - v_j[0], v_i[1] - v_j[1]};
+  sketch.arrow("", "velocity i", 0, 0, v_i[0], v_i[1]);
+  sketch.arrow("", "velocity j", x, y, x + v_j[0], y + v_j[1]);
+  sketch.arrow("", "approach", 0, 0, v[0], v[1]);
+  sketch.arc("", "angle", 0, 0, 0.4, along, std::atan2(v[1], v[0]));
+  sketch.turn("", "spin i", 0, 0, 0.8, 1.1 * pi, 1.5 * pi);
+  sketch.turn("", "spin j", x, y, 0.55, 1.5 * pi, 1.9 * pi);
   return table;
 }
 
@@ -117,7 +130,7 @@ FigureTable compute_fig_3_09(const FigureContext&) {
   sketch.arrow("", "force F_s^p", 0, 0, -0.65, 0);
   sketch.arrow("", "force m g", 0, 1, 0, 0.4);
   sketch.arrow("", "way v", 0, 1, 0.65, 1);
-  sketch.arc("", "spin", 0, 1, 0.75, 0.85 * pi, 0.3 * pi);
+  sketch.turn("", "spin", 0, 1, 0.75, 0.85 * pi, 0.3 * pi);
   return table;
 }
 
