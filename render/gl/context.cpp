@@ -1,6 +1,5 @@
 #include "gl/context.hpp"
 
-#include <GL/osmesa.h>
 #include <fmt/format.h>
 
 #include <clocale>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "gl/library.hpp"
 
 namespace chute::gl {
 namespace {
@@ -40,21 +40,21 @@ Context::Context(int width, int height, int depth_bits) : inside_(std::make_uniq
                             OSMESA_CONTEXT_MINOR_VERSION, 3,
                             0};
   // clang-format on
-  inside_->context = OSMesaCreateContextAttribs(attributes, nullptr);
+  inside_->context = library().create_context(attributes, nullptr);
   if (!inside_->context) throw WorkError("cannot draw: OSMesa gives no OpenGL 3.3 context");
   try {
     make_current();
   } catch (...) {
-    OSMesaDestroyContext(inside_->context);
+    library().destroy_context(inside_->context);
     throw;
   }
 }
 
-Context::~Context() { OSMesaDestroyContext(inside_->context); }
+Context::~Context() { library().destroy_context(inside_->context); }
 
 void Context::make_current() {
   auto& in = *inside_;
-  if (!OSMesaMakeCurrent(in.context, in.buffer.data(), GL_UNSIGNED_BYTE, in.width, in.height))
+  if (!library().make_current(in.context, in.buffer.data(), GL_UNSIGNED_BYTE, in.width, in.height))
     throw WorkError(
         fmt::format("cannot draw: OSMesa refuses a picture of {} x {} pixels", in.width, in.height));
 }
@@ -71,7 +71,7 @@ std::string Context::version() {
 }
 
 struct KeepCurrent::Inside {
-  OSMesaContext context = OSMesaGetCurrentContext();
+  OSMesaContext context = library().current_context();
   void* buffer = nullptr;
   GLint width = 0, height = 0;
 };
@@ -79,18 +79,19 @@ struct KeepCurrent::Inside {
 KeepCurrent::KeepCurrent() : inside_(std::make_unique<Inside>()) {
   GLint format = 0;
   if (inside_->context)
-    OSMesaGetColorBuffer(inside_->context, &inside_->width, &inside_->height, &format, &inside_->buffer);
+    library().color_buffer(inside_->context, &inside_->width, &inside_->height, &format, &inside_->buffer);
 }
 
 KeepCurrent::~KeepCurrent() {
   if (inside_->context && inside_->buffer)
-    OSMesaMakeCurrent(inside_->context, inside_->buffer, GL_UNSIGNED_BYTE, inside_->width, inside_->height);
+    library().make_current(inside_->context, inside_->buffer, GL_UNSIGNED_BYTE, inside_->width,
+                           inside_->height);
   else
-    OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+    library().make_current(nullptr, nullptr, 0, 0, 0);
 }
 
 Function function(const char* name) {
-  const auto found = OSMesaGetProcAddress(name);
+  const auto found = library().address(name);
   if (!found) throw WorkError(fmt::format("cannot draw: OSMesa lacks {}", name));
   return reinterpret_cast<Function>(found);
 }
