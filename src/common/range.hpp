@@ -17,6 +17,9 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{0, unbounded, true, false};
 inline constexpr Range non_negative{0, unbounded, false, false};
 inline constexpr Range unit_interval{0, 1, false, false};
+/// Sizes of physical numbers, 0 aside, whose squares, cubes and ratios are still numbers of the machine: no unit that
+/// anybody measures in leaves it.
+inline constexpr Range computable{1e-60, 1e60, false, false};
 inline constexpr Range at_least(double low) { return {low, unbounded, false, false}; }
 inline constexpr Range between(double low, double high) { return {low, high, false, false}; }
 

@@ -233,13 +233,20 @@ void TomlReader::know(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
 }
 
+std::optional<std::string> TomlReader::wrong(double x, Range range) const {
+  if (!range.contains(x)) return fmt::format("is not allowed, must be {}", range.describe());
+  if (physics_ && x != 0 && !computable.contains(std::abs(x)))
+    return fmt::format("cannot be computed with: a number is 0 or {}", computable.describe());
+  return {};
+}
+
 void TomlReader::value(std::string_view key, double& target, Range range, Text) {
   know(key);
   const toml::node* node = table_->get(key);
   if (!node) return;
   if (!node->is_number()) return slip(key, fmt::format("{} is not a number", shown(*node)));
   const double x = *node->value<double>();
-  if (!range.contains(x)) return slip(key, fmt::format("{} is not allowed, must be {}", x, range.describe()));
+  if (const auto why = wrong(x, range)) return slip(key, fmt::format("{} {}", x, *why));
   target = x;
 }
 
@@ -291,8 +298,7 @@ void TomlReader::value(std::string_view key, std::vector<double>& target, Range 
   for (const toml::node& item : *array) {
     if (!item.is_number()) return slip(key, fmt::format("{} in the list is not a number", shown(item)));
     const double x = *item.value<double>();
-    if (!range.contains(x))
-      return slip(key, fmt::format("{} in the list is not allowed, must be {}", x, range.describe()));
+    if (const auto why = wrong(x, range)) return slip(key, fmt::format("{} in the list {}", x, *why));
     target.push_back(x);
   }
 }
@@ -324,7 +330,9 @@ void TomlReader::value(std::string_view key, std::vector<std::vector<double>>& t
     auto& place = target.emplace_back();
     for (const toml::node& number : *numbers) {
       if (!number.is_number()) return slip(key, fmt::format("{} in the list is not a number", shown(number)));
-      place.push_back(*number.value<double>());
+      const double x = *number.value<double>();
+      if (const auto why = wrong(x, any_number)) return slip(key, fmt::format("{} in the list {}", x, *why));
+      place.push_back(x);
     }
   }
 }
@@ -352,6 +360,7 @@ TomlReader TomlReader::enter(std::string_view key) const {
   if (!inside) fail(key, "must be a table: [" + path(key) + "]");
   TomlReader reader(*inside, document_, path(key));
   reader.slips_ = slips_;
+  reader.physics_ = physics_;
   return reader;
 }
 
@@ -361,6 +370,7 @@ TomlReader TomlReader::enter(std::string_view key, std::size_t index) const {
   if (!inside) fail(key, "must be a list of tables: [[" + path(key) + "]]");
   TomlReader reader(*inside, document_, fmt::format("{}[{}]", path(key), index));
   reader.slips_ = slips_;
+  reader.physics_ = physics_;
   return reader;
 }
 

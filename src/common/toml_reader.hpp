@@ -63,6 +63,8 @@ class TomlReader {
   /// `throw_slips` throws them, a line each, ten at most. What is called after a slip must be ready for defaults.
   void collect() { slips_ = std::make_shared<Slips>(); }
   void throw_slips() const;
+  /// From now on numbers, here and in the tables inside, are physical ones: 0, or of a size that is computable.
+  void expect_physics() { physics_ = true; }
   /// Dotted names of keys that stand in tables, for the hint on one that stands outside of its own.
   void know_elsewhere(std::function<std::vector<std::string>()> names) { elsewhere_ = std::move(names); }
 
@@ -180,6 +182,7 @@ class TomlReader {
   std::string document_, prefix_;
   std::vector<std::string> known_;
   std::shared_ptr<Slips> slips_;
+  bool physics_ = false;
   std::function<std::vector<std::string>()> elsewhere_;
 
   template <class Work>
@@ -199,6 +202,8 @@ class TomlReader {
   bool follows_from_others(std::string_view key) const;
 
   void know(std::string_view key);
+  /// Why a number cannot be used; nothing if it can.
+  std::optional<std::string> wrong(double x, Range range) const;
   /// A key that is missing may be there under a misspelt name: then that is what to say.
   void find_slip() const;
   void missing(std::string_view key) const;

@@ -261,6 +261,7 @@ static Scene scene_of(const toml::table& table, const std::string& name) {
                 "an experiment is no flow down an incline; chute run, check and figure take it");
   Scene scene;
   reader.collect();
+  reader.expect_physics();
   reader.know_elsewhere([] {
     std::vector<std::string> names;
     for (const auto& key : plain_keys()) names.push_back(key.key);

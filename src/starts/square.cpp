@@ -4,14 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace chute::starts {
+
+std::optional<Refusal> below_the_bed(const Opening& o, const std::optional<double>& height) {
+  if (!height || (!o.ground.smooth && o.ground.beads.empty())) return {};
+  if (o.ground.smooth && *height <= 0)
+    return Refusal{"grains.start.height", fmt::format("{:.4g} lies below the bed, which is at 0", *height)};
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto& bead : o.ground.beads) lowest = std::min(lowest, bead.above);
+  if (o.ground.smooth || *height >= lowest) return {};
+  return Refusal{"grains.start.height",
+                 fmt::format("{:.4g} lies below the bed, whose beads are at {:.4g}", *height, lowest)};
+}
 
 std::int64_t Square::columns(double length, double step) const {
   return static_cast<std::int64_t>(std::floor(length / step * (1 + 1e-12)));
 }
 
 std::optional<Refusal> Square::misfit(const Opening& o) const {
+  if (auto wrong = below_the_bed(o, height)) return wrong;
   if (o.length == 0 || (o.dimensions == 3 && o.width == 0))
     return Refusal{"grains.start",
                    "a lattice fills a bounded domain: give domain.size, or a bed that has a size"};
@@ -42,6 +55,7 @@ std::vector<Launch> Square::begin(const Opening& o) const {
 }
 
 std::optional<Refusal> Alone::misfit(const Opening& o) const {
+  if (auto wrong = below_the_bed(o, height)) return wrong;
   if (o.radii.size() != 1 && !o.independent)
     return Refusal{
         "grains.start",

@@ -3,6 +3,9 @@
 
 namespace chute::starts {
 
+/// A height that is said below the bed: the grain would fall for ever.
+std::optional<Refusal> below_the_bed(const Opening& opening, const std::optional<double>& height);
+
 /// Grains on a square lattice (cubic in 3D), layer by layer from the bed up.
 class Square final : public Described<MadeStart, Square> {
  public:
