@@ -14,8 +14,8 @@
 namespace chute::hybrid {
 namespace {
 
-/// Pairs whose surfaces end a step nearer than this part of d may have met in it, while nobody moves more than half of
-/// that; and where somebody does, who may move farthest_move.
+/// Pairs whose surfaces end a step nearer than twice what the farthest grain moves may have met in it. Lists hold them up
+/// to this part of d; and where somebody moves more than half of that, up to what farthest_move allows.
 constexpr double usual_margin = 0.1, fast_margin = 2 * farthest_move;
 
 /// Skins of the neighbour lists, parts of d: grains fly some hundredths of d in a step, so a list holds for some steps.
@@ -74,11 +74,14 @@ void HybridEngine<D>::take_step() {
   const double end = static_cast<double>(step_ + 1) * setup_.time_step;
   if (setup_.tilt) tilt(end - setup_.time_step / 2);
   const double farthest = fly(end);
-  find_pairs(farthest > 0.5 * usual_margin * setup_.diameter ? fast_ : usual_, end);
+  find_pairs(farthest > 0.5 * usual_margin * setup_.diameter ? fast_ : usual_, 2 * farthest, end);
   const auto& outcome = one_step_.collide(flights_, pairs_, end, *team_);
   for (const auto& hit : outcome.hits) account(hit);
+  hits_ += outcome.collisions;
   put_off_ += outcome.put_off;
-  for (std::size_t i = 0; i < grains_.moving; ++i) flights_[i].move_to(end, setup_.domain);
+  account_.normal_loss += outcome.normal_loss;
+  account_.shear_loss += outcome.shear_loss;
+  account_.wall_work += outcome.wall_work;
   push_apart(end);
   if (setup_.tilt) note_work();
   ++step_;
@@ -122,7 +125,7 @@ double HybridEngine<D>::fly(double end) {
 
 /// The pairs within the margin where they would fly to; exactly these, whatever the list still holds besides.
 template <int D>
-void HybridEngine<D>::find_pairs(Nearby& nearby, double end) {
+void HybridEngine<D>::find_pairs(Nearby& nearby, double margin, double end) {
   auto& grown = nearby.grown;
   for (std::size_t i = 0; i < grains_.moving; ++i) {
     const Vec<D> place = flights_[i].place_at(end);
@@ -133,7 +136,8 @@ void HybridEngine<D>::find_pairs(Nearby& nearby, double end) {
   for (std::size_t p = 0; p < candidates.size(); ++p) {
     const auto i = static_cast<std::size_t>(candidates.i[p]), j = static_cast<std::size_t>(candidates.j[p]);
     const Vec<D> way = setup_.domain.way(grown.place(i), grown.place(j));
-    if (dot(way, way) < candidates.reach_squared[p]) pairs_.add(i, j);
+    const double reach = grains_.radius[i] + grains_.radius[j] + margin;
+    if (dot(way, way) < reach * reach) pairs_.add(i, j);
   }
 }
 
@@ -152,31 +156,31 @@ Contact HybridEngine<D>::told(std::size_t i, std::size_t j, const Vec<D>& place,
   return contact;
 }
 
-/// What a collision leaves in the account, and in what others see.
+/// What others see of the collisions of two in a step.
 template <int D>
 void HybridEngine<D>::account(const Hit<D>& hit) {
-  ++hits_;
-  account_.normal_loss += hit.done.normal_loss;
-  account_.shear_loss += hit.done.shear_loss;
-  account_.wall_work += hit.wall_work;
-  const hard::Meeting* train = meetings_.running(hit.i, hit.j, hit.time);
+  const hard::Meeting* train = meetings_.running(hit.i, hit.j, hit.first);
   note_touch(hit, (1 / norm(hit.way)) * hit.way, train);
-  meetings_.note(hit.i, hit.j, hit.time, as_file_vector(hit.done.impulse));
+  meetings_.note(hit.i, hit.j, hit.first, as_file_vector(hit.impulse));
+  if (hit.collisions > 1) {
+    touches_.hold(hit.last, hit.i, hit.j);
+    meetings_.note(hit.i, hit.j, hit.last, as_file_vector(hit.further));
+  }
   if (collecting_collisions_)
-    collisions_.push_back({told(hit.i, hit.j, hit.place, hit.way, hit.done.impulse), hit.time});
+    collisions_.push_back({told(hit.i, hit.j, hit.place, hit.way, hit.impulse + hit.further), hit.first});
 }
 
 /// An impact, or the lasting contact goes on; n from i to j.
 template <int D>
 void HybridEngine<D>::note_touch(const Hit<D>& hit, const Vec<D>& n, const hard::Meeting* train) {
-  if (train) return touches_.hold(hit.time, hit.i, hit.j);
+  if (train) return touches_.hold(hit.first, hit.i, hit.j);
   const bool both = hit.j < grains_.moving;  // then the one with the lower id counts as the bead
   const double sign = both ? 1 : -1;
-  Impact impact = impact_at(hit.time, sign * n, sign * hit.velocity, hit.place + grains_.radius[hit.i] * n);
+  Impact impact = impact_at(hit.first, sign * n, sign * hit.velocity, hit.place + grains_.radius[hit.i] * n);
   impact.grain = static_cast<std::int64_t>(both ? hit.j : hit.i);
   impact.bead = static_cast<std::int64_t>(both ? hit.i : hit.j);
   touches_.begin(impact);
-  touches_.end(hit.time, hit.i, hit.j);
+  touches_.end(hit.first, hit.i, hit.j);
   if (is_wall(hit.j)) impact.bead = wall_id(hit.j - grains_.size());
   if (collecting_) impacts_.push_back(impact);
 }

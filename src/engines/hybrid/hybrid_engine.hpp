@@ -75,7 +75,7 @@ class HybridEngine final : public Engine {
   bool is_wall(std::size_t j) const { return j >= grains_.size(); }
   const Wall<D>& wall_of(std::size_t j) const { return setup_.walls[j - grains_.size()]; }
   double fly(double end);
-  void find_pairs(Nearby& nearby, double end);
+  void find_pairs(Nearby& nearby, double margin, double end);
   void take_step();
   void tilt(double middle);
   void note_work();
