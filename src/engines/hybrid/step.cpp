@@ -111,20 +111,6 @@ hard::Flight<D> Step<D>::flight(std::size_t i) const {
   return f;
 }
 
-/// How two grains stand to each other, s after the begin of the step.
-template <int D>
-inline typename Step<D>::Relative Step<D>::relative(const Partners& p, double s) const {
-  const auto &a = bodies_[p.i], &b = bodies_[p.j];
-  Relative r{b.place - a.place + p.image, b.velocity - a.velocity};
-  if (moves(p.j)) {
-    r.way = r.way + s * r.velocity;
-  } else {
-    r.way = r.way + s * (r.velocity - (0.5 * s) * gravity_);
-    r.velocity = r.velocity - s * gravity_;
-  }
-  return r;
-}
-
 template <int D>
 std::int32_t Step<D>::version(const Partners& p) const {
   return bodies_[p.i].collisions + (moves(p.j) ? bodies_[p.j].collisions : 0);
@@ -241,7 +227,7 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
   outcome_.normal_loss = outcome_.shear_loss = outcome_.wall_work = 0;
   end_ = end, length_ = setup_.time_step, begin_ = end - length_;
   gravity_ = grains_.moving > 0 ? flights[0].gravity : Vec<D>{};
-  negligible_ = rounding * norm(setup_.gravity) * length_;
+  given_ = norm(setup_.gravity) * length_, negligible_ = rounding * given_;
   take_off();
   list_partners(pairs);
   moved_.assign(grains_.moving, 0);
@@ -282,7 +268,7 @@ bool Step<D>::collide(Partners& p, double s) {
   const Vec<D> n = (1 / norm(before.way)) * before.way, surface = j.velocity;
   const double v_n = dot(before.velocity, n);
   if (!(v_n < -negligible_)) return false;
-  const bool rests = -v_n < resting * norm(setup_.gravity) * length_;
+  const bool rests = -v_n < resting * given_;
   if (rests) law.beta = 0;
   const auto done = law(n, rests ? 0 : laws::restitution_at(*restitution, v_n), i, j);
   ++outcome_.collisions;
