@@ -76,7 +76,7 @@ void HybridEngine<D>::take_step() {
   const double farthest = fly(end);
   find_pairs(farthest > 0.5 * usual_margin * setup_.diameter ? fast_ : usual_, 2 * farthest, end);
   const auto& outcome = one_step_.collide(flights_, pairs_, end, *team_);
-  for (const auto& hit : outcome.hits) account(hit);
+  for (const auto k : outcome.order) account(outcome.hits[k]);
   hits_ += outcome.collisions;
   put_off_ += outcome.put_off;
   account_.normal_loss += outcome.normal_loss;

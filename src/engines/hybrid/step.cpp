@@ -237,7 +237,10 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
   do_events();
   for (list_to_check(); !to_check_.empty(); list_to_check()) sweep();
   arrive();
-  std::sort(outcome_.hits.begin(), outcome_.hits.end(), [](const Hit<D>& a, const Hit<D>& b) {
+  outcome_.order.resize(outcome_.hits.size());
+  std::iota(outcome_.order.begin(), outcome_.order.end(), 0);
+  std::sort(outcome_.order.begin(), outcome_.order.end(), [this](std::uint32_t m, std::uint32_t n) {
+    const auto &a = outcome_.hits[m], &b = outcome_.hits[n];
     return std::tie(a.first, a.i, a.j) < std::tie(b.first, b.i, b.j);
   });
   return outcome_;
@@ -270,7 +273,7 @@ bool Step<D>::collide(Partners& p, double s) {
   if (!(v_n < -negligible_)) return false;
   const bool rests = -v_n < resting * given_;
   if (rests) law.beta = 0;
-  const auto done = law(n, rests ? 0 : laws::restitution_at(*restitution, v_n), i, j);
+  const auto done = law(n, rests ? rebound_at_rest : laws::restitution_at(*restitution, v_n), i, j);
   ++outcome_.collisions;
   outcome_.normal_loss += done.normal_loss, outcome_.shear_loss += done.shear_loss;
   if (is_wall(p.j)) outcome_.wall_work -= dot(done.impulse, surface);

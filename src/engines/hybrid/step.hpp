@@ -25,8 +25,14 @@ struct HybridSetup : Surroundings<D> {
 /// bounds the work of a step, whatever collapses.
 inline constexpr int collisions_per_grain = 64;
 
-/// Approaches slower than this many times what gravity gives in a step cannot bounce: e_n = 0 and β = 0.
+/// Approaches slower than this many times what gravity gives in a step are of grains that rest on each other: no bounce of
+/// theirs can be resolved. β = 0 then, and the rebound below.
 inline constexpr double resting = 2;
+
+/// Rebound of grains that rest on each other: no restitution, but what the sweeps over their contacts are over-relaxed by.
+/// Without it, e_n = 0, eight sweeps of a layer ten grains high leave so much approach that it sinks into itself, by 1 % of
+/// d and more at 18 degrees, locks, and flows at two thirds of its rate. With it grains at rest bob by (0.6 g Δt)²/2g.
+inline constexpr double rebound_at_rest = 0.6;
 
 /// A grain may not move farther than this part of d in a step: it might pass another.
 inline constexpr double farthest_move = 0.3;
@@ -62,7 +68,8 @@ class Step {
   Step(const HybridSetup<D>& setup, const Grains<D>& grains) : setup_(setup), grains_(grains) {}
 
   struct Outcome {
-    std::vector<Hit<D>> hits;  ///< ordered by (first, i, j)
+    std::vector<Hit<D>> hits;
+    std::vector<std::uint32_t> order;  ///< of the hits: by (first, i, j)
     std::int64_t collisions = 0;
     std::int64_t put_off = 0;  ///< times that a bound left a collision to the next step
     double normal_loss = 0, shear_loss = 0, wall_work = 0;
