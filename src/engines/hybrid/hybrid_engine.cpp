@@ -21,6 +21,9 @@ constexpr double usual_margin = 0.1, fast_margin = 2 * farthest_move;
 /// Skins of the neighbour lists, parts of d: grains fly some hundredths of d in a step, so a list holds for some steps.
 constexpr double near_skin = 0.15, far_skin = 0.5;
 
+/// Passes over what overlaps at the end of a step.
+constexpr int passes = 4;
+
 }  // namespace
 
 template <int D>
@@ -191,24 +194,42 @@ void HybridEngine<D>::move_apart(std::size_t i, const Vec<D>& way) {
   account_.projection_work -= grains_.mass[i] * dot(gravity_, way);
 }
 
-/// Takes a part of what overlaps: places only, by inverse masses, one contact after the other in their order.
+/// Takes a part of what overlaps: places only, by inverse masses, one contact after the other in their order. A grain in a
+/// layer that is moved presses into the next, so there are several passes, of which all together take that part of a pair
+/// that has no neighbours.
 template <int D>
 void HybridEngine<D>::push_apart(double end) {
+  const double part = 1 - std::pow(1 - setup_.relaxation, 1.0 / passes);
   deepest_ = 0;
-  const auto push = [&](double overlap) {
-    deepest_ = std::max(deepest_, overlap);
-    return setup_.relaxation * std::max(0.0, overlap - slop * setup_.diameter);
-  };
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto push = [&](double overlap) {
+      if (pass == 0) deepest_ = std::max(deepest_, overlap);
+      return part * std::max(0.0, overlap - slop * setup_.diameter);
+    };
+    push_pairs_apart(push);
+    push_off_walls(end, push);
+  }
+}
+
+template <int D>
+template <class Push>
+void HybridEngine<D>::push_pairs_apart(const Push& push) {
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const auto i = static_cast<std::size_t>(pairs_.i[p]), j = static_cast<std::size_t>(pairs_.j[p]);
+    const double reach = flights_[i].radius + flights_[j].radius;
     const Vec<D> way = setup_.domain.way(flights_[i].place, flights_[j].place);
-    const double distance = norm(way), overlap = flights_[i].radius + flights_[j].radius - distance;
-    if (!(overlap > 0)) continue;
+    if (dot(way, way) >= reach * reach) continue;
+    const double distance = norm(way);
     const Vec<D> apart =
-        push(overlap) / (distance * (grains_.inverse_mass[i] + grains_.inverse_mass[j])) * way;
+        push(reach - distance) / (distance * (grains_.inverse_mass[i] + grains_.inverse_mass[j])) * way;
     move_apart(i, -grains_.inverse_mass[i] * apart);
     if (j < grains_.moving) move_apart(j, grains_.inverse_mass[j] * apart);
   }
+}
+
+template <int D>
+template <class Push>
+void HybridEngine<D>::push_off_walls(double end, const Push& push) {
   for (const auto& wall : setup_.walls)
     for (std::size_t i = 0; i < grains_.moving; ++i) {
       const auto touch = wall.nearest(flights_[i].place, end, setup_.domain);
@@ -290,7 +311,7 @@ void HybridEngine<D>::transfer(Archive& archive, Self& self) {
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
   }
   archive(kept(self.start_place_), self.meetings_, self.touches_, self.account_, self.step_, self.hits_,
-          self.put_off_, self.deepest_);
+          self.put_off_, self.deepest_, self.one_step_.pressings());
 }
 
 template <int D>

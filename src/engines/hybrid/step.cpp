@@ -131,6 +131,10 @@ double Step<D>::contact(const Partners& p) const {
   const Relative now = relative(p, from);
   const double reach = a.radius + b.radius, gap = dot(now.way, now.way) - reach * reach;
   const double closing = dot(now.way, now.velocity);
+  if (p.presses) {
+    const double off = settled * given_ * reach;
+    return closing < -off || (closing > off && p.pressed > 0) ? from : never;
+  }
   if (gap <= 0) return closing < -negligible_ * reach ? from : never;
   // Nearly all looks end here: the square of the distance falls within a time T by at most 2 T |d·v| + T² |d·a|, the
   // first only if they approach.
@@ -231,11 +235,13 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
   take_off();
   list_partners(pairs);
   moved_.assign(grains_.moving, 0);
+  lean();
   to_check_.resize(partners_.size());
   std::iota(to_check_.begin(), to_check_.end(), 0);
   find_events(team);
   do_events();
   for (list_to_check(); !to_check_.empty(); list_to_check()) sweep();
+  remember();
   arrive();
   outcome_.order.resize(outcome_.hits.size());
   std::iota(outcome_.order.begin(), outcome_.order.end(), 0);
@@ -244,6 +250,36 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
     return std::tie(a.first, a.i, a.j) < std::tie(b.first, b.i, b.j);
   });
   return outcome_;
+}
+
+/// Those who rested on each other in the step before, and still touch, begin with the impulses of that.
+template <int D>
+void Step<D>::lean() {
+  std::size_t at = 0;
+  for (auto& p : partners_) {
+    if (is_wall(p.j)) return;  // they come last
+    const auto earlier = [&](const Pressing<D>& q) { return q.i < p.i || (q.i == p.i && q.j < p.j); };
+    while (at < pressings_.size() && earlier(pressings_[at])) ++at;
+    if (at == pressings_.size()) return;
+    const auto& last = pressings_[at];
+    if (last.i != p.i || last.j != p.j) continue;
+    const Relative before = relative(p, 0);
+    const double distance = norm(before.way);
+    if (distance > bodies_[p.i].radius + bodies_[p.j].radius) continue;
+    const auto& a = bodies_[p.i];
+    const auto& b = bodies_[p.j];
+    laws::Collider<D> i{a.velocity, a.spin, a.radius, a.inverse_mass, a.inverse_inertia};
+    laws::Collider<D> j{i.velocity + before.velocity, b.spin, b.radius, b.inverse_mass, b.inverse_inertia};
+    const Vec<D> n = (1 / distance) * before.way;
+    press_to(p, 0, before, n, last.normal, last.shear - dot(last.shear, n) * n, i, j);
+  }
+}
+
+template <int D>
+void Step<D>::remember() {
+  pressings_.clear();
+  for (const auto& p : partners_)
+    if (p.presses && p.pressed > 0) pressings_.push_back({p.i, p.j, p.pressed, p.sheared});
 }
 
 /// Lets two collide now; false if they only touch.
@@ -270,14 +306,55 @@ bool Step<D>::collide(Partners& p, double s) {
   }
   const Vec<D> n = (1 / norm(before.way)) * before.way, surface = j.velocity;
   const double v_n = dot(before.velocity, n);
-  if (!(v_n < -negligible_)) return false;
   const bool rests = -v_n < resting * given_;
+  if (rests && !is_wall(p.j) && (p.presses || v_n < -negligible_)) return press(p, s, before, n, i, j), true;
+  if (!(v_n < -negligible_)) return false;
+  p.presses = false;
   if (rests) law.beta = 0;
-  const auto done = law(n, rests ? rebound_at_rest : laws::restitution_at(*restitution, v_n), i, j);
-  ++outcome_.collisions;
+  const auto done = law(n, rests ? 0 : laws::restitution_at(*restitution, v_n), i, j);
   outcome_.normal_loss += done.normal_loss, outcome_.shear_loss += done.shear_loss;
   if (is_wall(p.j)) outcome_.wall_work -= dot(done.impulse, surface);
-  note(p, s, before, done.impulse);
+  ++outcome_.collisions;
+  pass(p, s, before, done.impulse, i.spin, j.spin);
+  return true;
+}
+
+/// One turn of two that rest on each other: what takes away their approach and their slip, as far as the sum of all turns
+/// of the step may.
+template <int D>
+void Step<D>::press(Partners& p, double s, const Relative& before, const Vec<D>& n, laws::Collider<D>& i,
+                    laws::Collider<D>& j) {
+  const double v_n = dot(before.velocity, n);
+  const Vec<D> slip = laws::surface_slip(n, i, j);
+  const double pressed = std::max(0.0, p.pressed - over_relaxation * v_n / (i.inverse_mass + j.inverse_mass));
+  Vec<D> sheared = p.sheared - laws::slip_mass(i, j) * slip;
+  const double shear = norm(sheared), most = setup_.contact.tangential.friction * pressed;
+  if (shear > most) sheared = (most / shear) * sheared;
+  ++outcome_.collisions;
+  press_to(p, s, before, n, pressed, sheared, i, j);
+}
+
+/// Makes the impulses of the step these in all.
+template <int D>
+void Step<D>::press_to(Partners& p, double s, const Relative& before, const Vec<D>& n, double pressed,
+                       const Vec<D>& sheared, laws::Collider<D>& i, laws::Collider<D>& j) {
+  p.presses = true;
+  const double v_n = dot(before.velocity, n);
+  const Vec<D> slip = laws::surface_slip(n, i, j);
+  const Vec<D> sideways = sheared - p.sheared, impulse = (pressed - p.pressed) * n + sideways;
+  laws::apply_impulse(n, impulse, i, j);
+  const double mean_v_n = 0.5 * (v_n + dot(j.velocity - i.velocity, n));
+  outcome_.normal_loss -= (pressed - p.pressed) * mean_v_n;
+  outcome_.shear_loss -= dot(sideways, mean_v_n * n + 0.5 * (slip + laws::surface_slip(n, i, j)));
+  p.pressed = pressed, p.sheared = sheared;
+  pass(p, s, before, impulse, i.spin, j.spin);
+}
+
+/// Hands on an impulse: the flights go on with other velocities.
+template <int D>
+void Step<D>::pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse,
+                   const Vec<turns<D>>& spin_i, const Vec<turns<D>>& spin_j) {
+  note(p, s, before, impulse);
   const auto go_on = [&](std::size_t k, const Vec<D>& impulse, const Vec<turns<D>>& spin) {
     auto& body = bodies_[k];
     auto& f = (*flights_)[k];
@@ -287,10 +364,9 @@ bool Step<D>::collide(Partners& p, double s) {
     body.spin = spin, body.time = s;
     ++body.collisions;
   };
-  go_on(p.i, -1 * done.impulse, i.spin);
-  if (moves(p.j)) go_on(p.j, done.impulse, j.spin);
+  go_on(p.i, -1 * impulse, spin_i);
+  if (moves(p.j)) go_on(p.j, impulse, spin_j);
   ++p.collisions;
-  return true;
 }
 
 template <int D>

@@ -17,7 +17,7 @@ struct HybridSetup : Surroundings<D> {
   double time_step = 0;
   double diameter = 1;  ///< d: what lengths are measured by
   int collisions_per_pair = 8;
-  double relaxation = 0.2;  ///< part of an overlap that a step takes away
+  double relaxation = 0.9;  ///< part of an overlap that a step takes away
   int threads = 1;          ///< results do not depend on it
 };
 
@@ -26,13 +26,16 @@ struct HybridSetup : Surroundings<D> {
 inline constexpr int collisions_per_grain = 64;
 
 /// Approaches slower than this many times what gravity gives in a step are of grains that rest on each other: no bounce of
-/// theirs can be resolved. β = 0 then, and the rebound below.
+/// theirs can be resolved, so e_n = 0 and β = 0.
 inline constexpr double resting = 2;
 
-/// Rebound of grains that rest on each other: no restitution, but what the sweeps over their contacts are over-relaxed by.
-/// Without it, e_n = 0, eight sweeps of a layer ten grains high leave so much approach that it sinks into itself, by 1 % of
-/// d and more at 18 degrees, locks, and flows at two thirds of its rate. With it grains at rest bob by (0.6 g Δt)²/2g.
-inline constexpr double rebound_at_rest = 0.6;
+/// And grains at rest whose surfaces part or approach slower than this many times that are let be: they sink into each other
+/// by as much of g Δt² in a step, or are found again in the next.
+inline constexpr double settled = 0.1;
+
+/// What a sweep changes the normal impulse of grains at rest by, over what would stop them: successive over-relaxation, which
+/// needs fewer sweeps for the weight of a layer to get down than 1 does, and is stable below 2.
+inline constexpr double over_relaxation = 1.3;
 
 /// A grain may not move farther than this part of d in a step: it might pass another.
 inline constexpr double farthest_move = 0.3;
@@ -53,6 +56,19 @@ struct Hit {
   int collisions = 1;
 };
 
+/// Two grains that rested on each other in a step, and the impulses of that on j.
+template <int D>
+struct Pressing {
+  std::uint32_t i, j;
+  double normal;
+  Vec<D> shear;
+
+  template <class Archive>
+  void serialize(Archive& a) {
+    a(i, j, normal, shear.c);
+  }
+};
+
 /// All collisions of one time step. Every grain has a local time, at first the step's begin, at which its flight starts;
 /// a pair collides at its first contact after both local times, which moves both on.
 ///
@@ -62,6 +78,12 @@ struct Hit {
 /// collides several times in a step, the order may not be that of the times, which is of first order in the step. Grains
 /// that press on each other are swept over like the contacts of a Gauss-Seidel solver, each pair taking away its approach
 /// as it is by then.
+///
+/// What grains that rest on each other exchange in a step is one impulse, J_n ≥ 0 and |J_s| ≤ μ J_n, which the sweeps find: a
+/// pair that parts again gives back of it. It begins with that of the step before where the two still touch, for a layer at
+/// rest carries now what it carried then; from nothing, the weight of ten grains on each other would take some hundred
+/// sweeps, and what eight of them leave makes a dense flow sink into itself and lock. Grains that hit each other faster
+/// collide as Walton has it, also where they rested before.
 template <int D>
 class Step {
  public:
@@ -79,6 +101,10 @@ class Step {
   const Outcome& collide(std::vector<hard::Flight<D>>& flights, const search::PairNames& pairs, double end,
                          Team& team);
 
+  /// Who rested on whom in the last step, in the order of the pairs: the next one starts from that.
+  std::vector<Pressing<D>>& pressings() { return pressings_; }
+  const std::vector<Pressing<D>>& pressings() const { return pressings_; }
+
  private:
   /// A grain's flight since its last collision, as if it had begun with the step, and without the ½ g s² that is common
   /// to all: two grains of which each is so stand to each other at s as place + s velocity, whenever they collided last.
@@ -95,6 +121,9 @@ class Step {
     std::uint32_t i, j;
     int collisions = 0;     ///< in this step
     std::uint32_t hit = 0;  ///< which of the step's, if they collided
+    bool presses = false;   ///< they rest on each other in this step
+    double pressed = 0;     ///< normal impulse on j of that, ≥ 0
+    Vec<D> sheared{};       ///< tangential one
     Vec<D> image{};         ///< what makes j − i the nearest image's way
   };
   struct Event {
@@ -122,6 +151,7 @@ class Step {
   std::vector<std::uint32_t> to_check_;    // partners, in their order
   std::vector<double> times_;              // when these meet
   std::vector<Event> events_;
+  std::vector<Pressing<D>> pressings_;
   Outcome outcome_;
 
   bool is_wall(std::size_t j) const { return j >= grains_.size(); }
@@ -152,6 +182,14 @@ class Step {
   void meet(Partners& p, double s);
   void list_to_check();
   bool collide(Partners& p, double s);
+  void lean();
+  void remember();
+  void press(Partners& p, double s, const Relative& before, const Vec<D>& n, laws::Collider<D>& i,
+             laws::Collider<D>& j);
+  void press_to(Partners& p, double s, const Relative& before, const Vec<D>& n, double pressed,
+                const Vec<D>& sheared, laws::Collider<D>& i, laws::Collider<D>& j);
+  void pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse, const Vec<turns<D>>& spin_i,
+            const Vec<turns<D>>& spin_j);
   void note(Partners& p, double s, const Relative& before, const Vec<D>& impulse);
 };
 
