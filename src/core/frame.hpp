@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "core/vec.hpp"
 
@@ -16,12 +17,21 @@ Vec<D> gravity_on_incline(double g, double theta) {
   return gravity;
 }
 
-/// An incline that is tilted at a steady rate from one angle to another, where it stays.
+/// An incline that is tilted at a steady rate from one angle to another, and from there maybe on to a third, where it
+/// stays.
 struct Tilt {
-  double from = 0, to = 0, rate = 0;  ///< rate ≥ 0, per time
+  double from = 0, to = 0, rate = 0;  ///< rate > 0, per time
   double gravity = 0;                 ///< g
+  std::optional<double> then{};       ///< the third angle
+
   double angle(double t) const {
-    return from < to ? std::min(to, from + rate * t) : std::max(to, from - rate * t);
+    const double turns = std::abs(to - from) / rate;
+    return then && t > turns ? on_the_way(to, *then, t - turns) : on_the_way(from, to, t);
+  }
+
+ private:
+  double on_the_way(double begin, double end, double t) const {
+    return begin < end ? std::min(end, begin + rate * t) : std::max(end, begin - rate * t);
   }
 };
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,7 @@
 #include "experiments/binary_impact.hpp"
 #include "experiments/curves.hpp"
 #include "experiments/pushed_cylinder.hpp"
+#include "experiments/rigid_cylinder.hpp"
 #include "laws/walton.hpp"
 
 namespace chute::experiments {
@@ -96,12 +98,15 @@ const std::string set_up_note =
     "1/2, mu_b = 0.5, mu_p = 0.25, (3.1) with k_n = 2e7, e_n = 0.2 on the plane; "
     "from rest, F_p = 0.8 until t = 0.02, then 0.2 until t = 0.06; Runge-Kutta";
 const std::string laws_note = "a: (3.12) with gamma_s = 1000; b: (3.13) with k_s = k_n; c: as b with (3.25)";
+const std::string rigid_note =
+    ": rigid, by contact dynamics (2.2) in steps of 1e-4: Coulomb's relation in place of a law";
 
 }  // namespace
 
 FigureTable compute_fig_3_10(const FigureContext&) {
   FigureTable table;
-  table.comments = {"x: time, sqrt(r/g)", "y: friction force on the cylinder, mg", set_up_note, laws_note};
+  table.comments = {"x: time, sqrt(r/g)", "y: friction force on the cylinder, mg", set_up_note, laws_note,
+                    "d" + rigid_note};
   // Every step's forces, then of each stretch the least and the largest, in their order: the envelope of what rings faster than
   // the figure's points follow each other, in place of the beats that single samples of it make.
   constexpr std::size_t points = 300;
@@ -121,6 +126,10 @@ FigureTable compute_fig_3_10(const FigureContext&) {
         from = to;
       }
   }
+  for (const auto& s : push(RigidCylinder{block_friction, plane_friction}, {first, second})) {
+    table.rows.push_back({"d", "F_s^b", s.time, s.block_force});
+    table.rows.push_back({"d", "F_s^p", s.time, s.plane_force});
+  }
   return table;
 }
 
@@ -135,16 +144,20 @@ FigureTable compute_table_3_1(const FigureContext& context) {
   FigureTable table;
   table.comments = {"x: 1 F_s^p, 2 F_s^b (mg), 3 dv/dt, 4 domega/dt (g, g/r); panel: F_p",
                     "y: value in the steady state; y_err: half of its range where the law leaves it ringing",
-                    "theory: (3.26) to (3.31); a, b, c: mean over the last quarter of each push",
+                    "theory: (3.26) to (3.31); others: mean over the last quarter of each push",
                     set_up_note,
                     laws_note,
                     ringing_note,
-                    stretched_note};
+                    stretched_note,
+                    "contact" + rigid_note};
   constexpr double CylinderState::*quantities[] = {&CylinderState::plane_force, &CylinderState::block_force,
                                                    &CylinderState::acceleration, &CylinderState::spin_up};
   const double end = first.duration + second.duration;
   std::vector<std::vector<CylinderState>> runs;
   for (const char law : {'a', 'b', 'c'}) runs.push_back(push(cylinder(law), {first, second}, 1));
+  runs.push_back(push(RigidCylinder{block_friction, plane_friction}, {first, second}));
+  const std::array series{"a", "b", "c", "contact"};
+  const auto rings = [](std::size_t law) { return law == 1 || law == 2; };
   for (const auto& [panel, pushing, from, to] :
        {std::tuple{"0.8", first.force, 0.75 * first.duration, first.duration},
         std::tuple{"0.2", second.force, end - 0.25 * second.duration, end}}) {
@@ -154,9 +167,8 @@ FigureTable compute_table_3_1(const FigureContext& context) {
     for (std::size_t law = 0; law < runs.size(); ++law)
       for (int q = 0; q < 4; ++q) {
         const auto value = steady(runs[law], from, to, quantities[q]);
-        const auto swing = law == 0 ? std::optional<double>() : value.swing;
-        table.rows.push_back(
-            {panel, std::string(1, static_cast<char>('a' + law)), q + 1.0, value.mean, {}, swing});
+        const auto swing = rings(law) ? value.swing : std::optional<double>();
+        table.rows.push_back({panel, series[law], q + 1.0, value.mean, {}, swing});
       }
   }
   static_cast<void>(context);  // it takes no time

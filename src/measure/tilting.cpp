@@ -29,12 +29,19 @@ TurningAngles turning_angles(const Tilt& tilt, double diameter, const std::vecto
   const double least = moving * std::sqrt(tilt.gravity * diameter),
                lasts = for_good * std::sqrt(diameter / tilt.gravity);
   const auto angle = [&](std::size_t k) { return tilt.angle(time[k]) * 180 / std::numbers::pi; };
+  const auto starts_from = [&](std::size_t row) {
+    return first_lasting(time, row, lasts, [&](std::size_t k) { return v_x[k] > least; });
+  };
   TurningAngles angles;
-  const auto moves = first_lasting(time, 0, lasts, [&](std::size_t k) { return v_x[k] > least; });
+  const auto moves = starts_from(0);
   if (moves == time.size()) return angles;
   if (moves > 0) angles.start = angle(moves);
   const auto stops = first_lasting(time, moves, lasts, [&](std::size_t k) { return v_x[k] <= least; });
-  if (stops < time.size()) angles.stop = angle(stops);
+  if (stops == time.size()) return angles;
+  angles.stop = angle(stops);
+  if (moves > 0) return angles;
+  const auto again = starts_from(stops);
+  if (again < time.size()) angles.start = angle(again);
   return angles;
 }
 

@@ -17,20 +17,27 @@ namespace chute::scene {
 // Outside unnamed namespaces: the archives find these by the type that they describe.
 
 template <class Archive>
+static void check_angle(Archive& a, const char* key, const std::string& angle) {
+  a.check(parse_angle(angle).has_value(), key,
+          fmt::format("\"{}\" is not an angle, write \"18 deg\" or \"0.3 rad\"", angle));
+}
+
+template <class Archive>
 static void describe_angle(Archive& a, const char* key, std::string& angle, const char* text) {
   a.required(key, angle, text);
-  if constexpr (Archive::reading)
-    a.check(parse_angle(angle).has_value(), key,
-            fmt::format("\"{}\" is not an angle, write \"18 deg\" or \"0.3 rad\"", angle));
+  if constexpr (Archive::reading) check_angle(a, key, angle);
 }
 
 template <class Archive>
 static void describe(Archive& a, Tilting& tilting) {
   describe_angle(a, "from", tilting.from, "where the incline starts");
-  describe_angle(a, "to", tilting.to, "where it stays in the end");
+  describe_angle(a, "to", tilting.to, "where it stays in the end, or turns");
   describe_angle(a, "rate", tilting.rate, "how far it is tilted per time, > 0");
+  a.value("then", tilting.then, "where it goes from there, at the same rate");
   if constexpr (Archive::reading) {
-    for (const auto& [key, angle] : {std::pair("from", &tilting.from), std::pair("to", &tilting.to)})
+    if (tilting.then) check_angle(a, "then", *tilting.then);
+    for (const auto& [key, angle] : {std::pair("from", &tilting.from), std::pair("to", &tilting.to),
+                                     std::pair("then", tilting.then ? &*tilting.then : &tilting.to)})
       a.check(std::abs(*parse_angle(*angle)) <= std::numbers::pi / 2, key,
               fmt::format("\"{}\" is not allowed, must be between -90 deg and 90 deg", *angle));
     a.check(*parse_angle(tilting.rate) > 0, "rate",
@@ -46,7 +53,7 @@ static void describe(Archive& a, Incline& incline) {
     a.section("angle", incline.tilting);
   else
     a.value("angle", incline.angle,
-            "inclination, \"18 deg\" or \"0.3 rad\"; or { from, to, rate } of one that is tilted");
+            "inclination, \"18 deg\" or \"0.3 rad\"; or { from, to, rate, then } of one that is tilted");
   a.value("sin", incline.sine, between(-1, 1), "its sine instead");
   a.value("tan", incline.tangent, "its tangent instead");
   a.value("gravity", incline.gravity, non_negative, "g; default 9.81 m/s² in SI, 1 in reduced units");
@@ -220,7 +227,9 @@ static void describe(Archive& a, Scene& scene) {
 }
 
 Tilt Tilting::tilt(double gravity) const {
-  return {parse_angle(from).value(), parse_angle(to).value(), parse_angle(rate).value(), gravity};
+  Tilt tilt{parse_angle(from).value(), parse_angle(to).value(), parse_angle(rate).value(), gravity};
+  if (then) tilt.then = parse_angle(*then);
+  return tilt;
 }
 
 double Incline::theta() const {

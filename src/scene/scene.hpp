@@ -23,9 +23,11 @@ namespace chute::scene {
 enum class Units { reduced, si };
 inline constexpr std::array<std::string_view, 2> units_words{"reduced", "SI"};
 
-/// An angle that changes steadily, `angle = { from = "0 deg", to = "30 deg", rate = "0.1 deg" }`, rate per time.
+/// An angle that changes steadily, `angle = { from = "0 deg", to = "30 deg", rate = "0.1 deg" }`, rate per time; and then,
+/// where there is a third, to that.
 struct Tilting {
   std::string from, to, rate;
+  std::optional<std::string> then;
   Tilt tilt(double gravity) const;
 };
 

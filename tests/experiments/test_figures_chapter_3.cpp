@@ -140,7 +140,10 @@ TEST_CASE(
   const auto& stuck = rows("F_s^p", "b");
   for (std::size_t k = 0; k < stuck.x.size(); ++k)
     if (stuck.x[k] > 0.03) CHECK(stuck.y[k] == Approx(0.275).epsilon(1e-3));
-  for (const char* panel : {"a", "b", "c"}) CHECK(rows("F_s^b", panel).at(end) == Approx(0.1).epsilon(1e-6));
+  for (const char* panel : {"a", "b", "c", "d"})
+    CHECK(rows("F_s^b", panel).at(end) == Approx(0.1).epsilon(1e-6));
+  CHECK(rows("F_s^p", "d").at(0.019) == Approx(1.0 / 3).epsilon(1e-6));
+  CHECK(rows("F_s^p", "d").at(end) == Approx(2.0 / 15).epsilon(1e-6));
 }
 
 TEST_CASE("table-3-1 has the steady state: a to 5 digits, b wrong after the change, c right in the mean") {
@@ -151,6 +154,7 @@ TEST_CASE("table-3-1 has the steady state: a to 5 digits, b wrong after the chan
       CHECK(rows("a", panel).y[q] == Approx(exact).epsilon(1e-6).margin(1e-9));
       CHECK(std::isnan(rows("a", panel).y_err[q]));
       CHECK(rows("c", panel).y[q] == Approx(exact).epsilon(2e-3).margin(1e-5));
+      CHECK(rows("contact", panel).y[q] == Approx(exact).epsilon(1e-6).margin(1e-6));
     }
   const double printed[] = {0.275, 0.1, -0.075, 0.35};  // the thesis's column (b) at F_p = 0.2
   for (std::size_t q = 0; q < 4; ++q) {

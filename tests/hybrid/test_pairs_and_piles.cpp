@@ -205,6 +205,45 @@ TEST_CASE("a flowing heap is the same bytes at any number of threads, and interr
   CHECK(std::abs(e.residual()) < 1e-9 * e.normal_loss);
 }
 
+TEST_CASE("a heap at rest does not sink into itself, its bed bears its weight, and it moves no more") {
+  Heap heap;
+  heap.setup.gravity = {{0, -1}};
+  HybridEngine<2> engine(heap.grains, heap.setup);
+  engine.advance_to(4000);
+  engine.collect_collisions(true);
+  double deepest = 0, weight = 0;
+  for (const double mass : heap.grains.mass) weight += mass;
+  weight -= 12;  // the bed
+  for (int step = 4001; step <= 5000; ++step) {
+    engine.advance_to(step);
+    deepest = std::max(deepest, engine.tells()[2].second);
+  }
+  double down = 0;
+  for (const auto& c : engine.take_collisions())
+    if (c.b >= 60) down += c.force[1];
+  CHECK(-down / 10 == Approx(weight).epsilon(0.01));
+  CHECK(deepest < 1e-3);  // g Δt² is 1e-4
+  CHECK(engine.energy().translation < 60 * 0.5 * 1e-4);
+}
+
+TEST_CASE("in a stack of 20 on a bead each carries those above it") {
+  Grains<2> grains;
+  for (int k = 1; k <= 20; ++k) add_ball<2>(grains, {{0, 1.0 * k}}, {});
+  add_ball<2>(grains, {{0, 0}}, {}, false);
+  auto setup = setup_of<2>(0.6, {0.3, 0.2}, 0.01);
+  setup.gravity = {{0, -1}};
+  setup.walls = {{{{-0.5, 0}}, {{1, 0}}}, {{{0.5, 0}}, {{-1, 0}}}};
+  for (auto& wall : setup.walls) wall.surface.friction = 0;
+  HybridEngine<2> engine(grains, setup);
+  engine.advance_to(6000);
+  std::map<std::pair<std::int64_t, std::int64_t>, double> force;
+  for (const auto& c : engine.contacts()) force[{c.a, c.b}] = c.normal_force;
+  for (int k = 0; k < 19; ++k) CHECK(force[{k, k + 1}] == Approx(19 - k).epsilon(0.01));
+  CHECK(force[{0, 20}] == Approx(20).epsilon(0.01));
+  CHECK(engine.tells()[2].second < 2e-3);
+  CHECK(engine.energy().translation < 20 * 0.5 * 4e-4);  // 2 g Δt each
+}
+
 // Newton's second law, grain by grain: what collisions gave is the change of momentum less gravity's share.
 TEST_CASE("the collisions of a flowing heap add up to its changes of momentum") {
   Heap heap;

@@ -40,6 +40,20 @@ TEST_CASE(
   CHECK(*angles.stop == Approx(15).epsilon(1e-12));
 }
 
+TEST_CASE("a flow that is tilted down and up again stops on the way down and starts on the way up") {
+  Tilt tilt{30 * degree, 10 * degree, 0.1 * degree, 1};
+  tilt.then = 40 * degree;  // at 10 degrees after 200
+  CHECK(tilt.angle(100) == Approx(20 * degree));
+  CHECK(tilt.angle(200) == Approx(10 * degree));
+  CHECK(tilt.angle(350) == Approx(25 * degree));
+  CHECK(tilt.angle(1000) == Approx(40 * degree));
+  const auto angles = found(tilt, [](double t) { return t < 150 || (t > 210 && t < 215) || t >= 340; });
+  REQUIRE(angles.stop);
+  CHECK(*angles.stop == Approx(15).epsilon(1e-12));
+  REQUIRE(angles.start);
+  CHECK(*angles.start == Approx(24).epsilon(1e-12));
+}
+
 TEST_CASE("what does not last until the end of the run tells nothing") {
   const Tilt up{10 * degree, 70 * degree, 0.1 * degree, 1};
   CHECK(!found(up, [](double) { return false; }).start);

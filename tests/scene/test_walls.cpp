@@ -112,6 +112,9 @@ TEST_CASE("an incline tilts in time, if the method can") {
   CHECK(world.gravity_at(0)[0] == 0);
   CHECK(world.gravity_at(10)[0] == Approx(std::sin(10 * M_PI / 180)));
   CHECK(world.gravity_at(100)[0] == Approx(std::sin(20 * M_PI / 180)));
+  const auto back = scene::make_world<2>(with("", {tilt[0], "incline.angle.then=\"5 deg\""}));
+  CHECK(back.gravity_at(20)[0] == Approx(std::sin(20 * M_PI / 180)));
+  CHECK(back.gravity_at(25)[0] == Approx(std::sin(15 * M_PI / 180)));
   CHECK(scene::to_toml(scene) == scene::to_toml(scene::parse_scene(scene::to_toml(scene), "again")));
   const auto wrong = [&](std::string key, std::string value) {
     try {
@@ -127,4 +130,6 @@ TEST_CASE("an incline tilts in time, if the method can") {
              Catch::Contains("incline.angle.rate: \"0 deg\" is not allowed, must be > 0"));
   CHECK_THAT(wrong("incline.angle.to", "\"steep\""),
              Catch::Contains("incline.angle.to: \"steep\" is not an angle"));
+  CHECK_THAT(wrong("incline.angle.then", "\"back\""),
+             Catch::Contains("incline.angle.then: \"back\" is not an angle"));
 }

@@ -57,13 +57,13 @@ struct Closing {
 template <int D>
 double first_contact_quartic(const Approach<D>& a) {
   const Closing closing(a);
-  const auto turns = closing.turns();
-  const std::array ends{turns[0], turns[1], std::max(closing.positive_after(), turns[1])};
-
   double at = 0, value = closing.c0;  // the cubic at the begin of a monotone stretch
   double falls_from = value < 0 ? 0 : never;
   if (value == 0 && (closing.c1 < 0 || (closing.c1 == 0 && closing.c2 < 0))) falls_from = 0;
   if (falls_from == 0 && a.gap(0) <= 0) return 0;
+
+  const auto turns = closing.turns();
+  const std::array ends{turns[0], turns[1], std::max(closing.positive_after(), turns[1])};
   for (const double end : ends) {
     if (!(end > at)) continue;  // behind us, or no turning point
     const double at_end = closing(end);

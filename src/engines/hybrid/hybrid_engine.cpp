@@ -14,12 +14,15 @@
 namespace chute::hybrid {
 namespace {
 
-/// Pairs whose surfaces end a step nearer than this part of d may have met in it, while nobody moves more than half of
-/// that; and where somebody does, who may move farthest_move.
+/// Pairs whose surfaces end a step nearer than twice what the farthest grain moves may have met in it. Lists hold them up
+/// to this part of d; and where somebody moves more than half of that, up to what farthest_move allows.
 constexpr double usual_margin = 0.1, fast_margin = 2 * farthest_move;
 
 /// Skins of the neighbour lists, parts of d: grains fly some hundredths of d in a step, so a list holds for some steps.
 constexpr double near_skin = 0.15, far_skin = 0.5;
+
+/// Passes over what overlaps at the end of a step.
+constexpr int passes = 4;
 
 }  // namespace
 
@@ -74,11 +77,14 @@ void HybridEngine<D>::take_step() {
   const double end = static_cast<double>(step_ + 1) * setup_.time_step;
   if (setup_.tilt) tilt(end - setup_.time_step / 2);
   const double farthest = fly(end);
-  find_pairs(farthest > 0.5 * usual_margin * setup_.diameter ? fast_ : usual_, end);
+  find_pairs(farthest > 0.5 * usual_margin * setup_.diameter ? fast_ : usual_, 2 * farthest, end);
   const auto& outcome = one_step_.collide(flights_, pairs_, end, *team_);
-  for (const auto& hit : outcome.hits) account(hit);
+  for (const auto k : outcome.order) account(outcome.hits[k]);
+  hits_ += outcome.collisions;
   put_off_ += outcome.put_off;
-  for (std::size_t i = 0; i < grains_.moving; ++i) flights_[i].move_to(end, setup_.domain);
+  account_.normal_loss += outcome.normal_loss;
+  account_.shear_loss += outcome.shear_loss;
+  account_.wall_work += outcome.wall_work;
   push_apart(end);
   if (setup_.tilt) note_work();
   ++step_;
@@ -122,7 +128,7 @@ double HybridEngine<D>::fly(double end) {
 
 /// The pairs within the margin where they would fly to; exactly these, whatever the list still holds besides.
 template <int D>
-void HybridEngine<D>::find_pairs(Nearby& nearby, double end) {
+void HybridEngine<D>::find_pairs(Nearby& nearby, double margin, double end) {
   auto& grown = nearby.grown;
   for (std::size_t i = 0; i < grains_.moving; ++i) {
     const Vec<D> place = flights_[i].place_at(end);
@@ -133,7 +139,8 @@ void HybridEngine<D>::find_pairs(Nearby& nearby, double end) {
   for (std::size_t p = 0; p < candidates.size(); ++p) {
     const auto i = static_cast<std::size_t>(candidates.i[p]), j = static_cast<std::size_t>(candidates.j[p]);
     const Vec<D> way = setup_.domain.way(grown.place(i), grown.place(j));
-    if (dot(way, way) < candidates.reach_squared[p]) pairs_.add(i, j);
+    const double reach = grains_.radius[i] + grains_.radius[j] + margin;
+    if (dot(way, way) < reach * reach) pairs_.add(i, j);
   }
 }
 
@@ -152,31 +159,31 @@ Contact HybridEngine<D>::told(std::size_t i, std::size_t j, const Vec<D>& place,
   return contact;
 }
 
-/// What a collision leaves in the account, and in what others see.
+/// What others see of the collisions of two in a step.
 template <int D>
 void HybridEngine<D>::account(const Hit<D>& hit) {
-  ++hits_;
-  account_.normal_loss += hit.done.normal_loss;
-  account_.shear_loss += hit.done.shear_loss;
-  account_.wall_work += hit.wall_work;
-  const hard::Meeting* train = meetings_.running(hit.i, hit.j, hit.time);
+  const hard::Meeting* train = meetings_.running(hit.i, hit.j, hit.first);
   note_touch(hit, (1 / norm(hit.way)) * hit.way, train);
-  meetings_.note(hit.i, hit.j, hit.time, as_file_vector(hit.done.impulse));
+  meetings_.note(hit.i, hit.j, hit.first, as_file_vector(hit.impulse));
+  if (hit.collisions > 1) {
+    touches_.hold(hit.last, hit.i, hit.j);
+    meetings_.note(hit.i, hit.j, hit.last, as_file_vector(hit.further));
+  }
   if (collecting_collisions_)
-    collisions_.push_back({told(hit.i, hit.j, hit.place, hit.way, hit.done.impulse), hit.time});
+    collisions_.push_back({told(hit.i, hit.j, hit.place, hit.way, hit.impulse + hit.further), hit.first});
 }
 
 /// An impact, or the lasting contact goes on; n from i to j.
 template <int D>
 void HybridEngine<D>::note_touch(const Hit<D>& hit, const Vec<D>& n, const hard::Meeting* train) {
-  if (train) return touches_.hold(hit.time, hit.i, hit.j);
+  if (train) return touches_.hold(hit.first, hit.i, hit.j);
   const bool both = hit.j < grains_.moving;  // then the one with the lower id counts as the bead
   const double sign = both ? 1 : -1;
-  Impact impact = impact_at(hit.time, sign * n, sign * hit.velocity, hit.place + grains_.radius[hit.i] * n);
+  Impact impact = impact_at(hit.first, sign * n, sign * hit.velocity, hit.place + grains_.radius[hit.i] * n);
   impact.grain = static_cast<std::int64_t>(both ? hit.j : hit.i);
   impact.bead = static_cast<std::int64_t>(both ? hit.i : hit.j);
   touches_.begin(impact);
-  touches_.end(hit.time, hit.i, hit.j);
+  touches_.end(hit.first, hit.i, hit.j);
   if (is_wall(hit.j)) impact.bead = wall_id(hit.j - grains_.size());
   if (collecting_) impacts_.push_back(impact);
 }
@@ -187,24 +194,42 @@ void HybridEngine<D>::move_apart(std::size_t i, const Vec<D>& way) {
   account_.projection_work -= grains_.mass[i] * dot(gravity_, way);
 }
 
-/// Takes a part of what overlaps: places only, by inverse masses, one contact after the other in their order.
+/// Takes a part of what overlaps: places only, by inverse masses, one contact after the other in their order. A grain in a
+/// layer that is moved presses into the next, so there are several passes, of which all together take that part of a pair
+/// that has no neighbours.
 template <int D>
 void HybridEngine<D>::push_apart(double end) {
+  const double part = 1 - std::pow(1 - setup_.relaxation, 1.0 / passes);
   deepest_ = 0;
-  const auto push = [&](double overlap) {
-    deepest_ = std::max(deepest_, overlap);
-    return setup_.relaxation * std::max(0.0, overlap - slop * setup_.diameter);
-  };
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto push = [&](double overlap) {
+      if (pass == 0) deepest_ = std::max(deepest_, overlap);
+      return part * std::max(0.0, overlap - slop * setup_.diameter);
+    };
+    push_pairs_apart(push);
+    push_off_walls(end, push);
+  }
+}
+
+template <int D>
+template <class Push>
+void HybridEngine<D>::push_pairs_apart(const Push& push) {
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const auto i = static_cast<std::size_t>(pairs_.i[p]), j = static_cast<std::size_t>(pairs_.j[p]);
+    const double reach = flights_[i].radius + flights_[j].radius;
     const Vec<D> way = setup_.domain.way(flights_[i].place, flights_[j].place);
-    const double distance = norm(way), overlap = flights_[i].radius + flights_[j].radius - distance;
-    if (!(overlap > 0)) continue;
+    if (dot(way, way) >= reach * reach) continue;
+    const double distance = norm(way);
     const Vec<D> apart =
-        push(overlap) / (distance * (grains_.inverse_mass[i] + grains_.inverse_mass[j])) * way;
+        push(reach - distance) / (distance * (grains_.inverse_mass[i] + grains_.inverse_mass[j])) * way;
     move_apart(i, -grains_.inverse_mass[i] * apart);
     if (j < grains_.moving) move_apart(j, grains_.inverse_mass[j] * apart);
   }
+}
+
+template <int D>
+template <class Push>
+void HybridEngine<D>::push_off_walls(double end, const Push& push) {
   for (const auto& wall : setup_.walls)
     for (std::size_t i = 0; i < grains_.moving; ++i) {
       const auto touch = wall.nearest(flights_[i].place, end, setup_.domain);
@@ -286,7 +311,7 @@ void HybridEngine<D>::transfer(Archive& archive, Self& self) {
     archive(f.place.c, f.velocity.c, f.spin.c, f.orientation.c, f.wraps, f.time);
   }
   archive(kept(self.start_place_), self.meetings_, self.touches_, self.account_, self.step_, self.hits_,
-          self.put_off_, self.deepest_);
+          self.put_off_, self.deepest_, self.one_step_.pressings());
 }
 
 template <int D>

@@ -13,8 +13,8 @@ namespace chute::hybrid {
 /// One pair is exact whatever the step; of many in contact the order within a step is that of their times.
 ///
 /// There is no collapse: a pair collides at most `collisions_per_pair` times in a step, and what is left over waits for
-/// the next step; `tells` counts how often. Grains at rest on each other hit each other once or some times in each step,
-/// without rebound, and so pass on their weight as impulses. What they sink into each other meanwhile, ½ g Δt² in a step, is
+/// the next step; `tells` counts how often. Grains at rest on each other pass on their weight as one impulse a step, without
+/// rebound (step.hpp). What they sink into each other meanwhile, ½ g Δt² in a step, is
 /// taken back bit by bit by moving them apart, which changes no velocity; the potential energy that this puts in is the
 /// account's `projection_work`.
 ///
@@ -75,7 +75,7 @@ class HybridEngine final : public Engine {
   bool is_wall(std::size_t j) const { return j >= grains_.size(); }
   const Wall<D>& wall_of(std::size_t j) const { return setup_.walls[j - grains_.size()]; }
   double fly(double end);
-  void find_pairs(Nearby& nearby, double end);
+  void find_pairs(Nearby& nearby, double margin, double end);
   void take_step();
   void tilt(double middle);
   void note_work();
@@ -83,6 +83,10 @@ class HybridEngine final : public Engine {
   void account(const Hit<D>& hit);
   void note_touch(const Hit<D>& hit, const Vec<D>& n, const hard::Meeting* train);
   void push_apart(double end);
+  template <class Push>
+  void push_pairs_apart(const Push& push);
+  template <class Push>
+  void push_off_walls(double end, const Push& push);
   void move_apart(std::size_t i, const Vec<D>& way);
   Contact told(std::size_t i, std::size_t j, const Vec<D>& place, const Vec<D>& way,
                const Vec<D>& force) const;

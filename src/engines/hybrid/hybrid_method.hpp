@@ -10,7 +10,7 @@ class HybridMethod final : public Described<engines::Method, HybridMethod>, publ
   /// A further thread pays for so many moving grains.
   static constexpr std::int64_t grains_per_thread = 5000;
   std::optional<double> restitution_velocity;
-  double restitution_exponent = 0.2, relaxation = 0.2;
+  double restitution_exponent = 0.2, relaxation = 0.9;
   std::int64_t collisions_per_step = 8;
 
   template <class Archive>

@@ -12,32 +12,76 @@ namespace chute::hybrid {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-/// Fewer islands than this are done sooner by one thread than the others are woken, each taking about a microsecond.
-constexpr std::size_t islands_worth_sharing = 64;
+/// Fewer pairs than this are looked at sooner by one thread than the others are woken; each takes some 10 ns.
+constexpr std::size_t looks_worth_sharing = 4096;
 
 /// An approach slower than this part of what gravity gives in a step is rounding: the grains touch and do not collide.
 constexpr double rounding = 1e-9;
 
+/// A gap below this part of the squared reach may be closed already, but for rounding.
+constexpr double closed = 1e-12;
+
+/// What has to be added to the way between two places to make it the one to the nearest image.
+template <int D>
+Vec<D> image_of(const Vec<D>& way, const Domain<D>& domain) {
+  Vec<D> image;
+  for (int k = 0; k < D; ++k) {
+    const double half = domain.length[k] / 2;
+    image[k] = way[k] > half ? -domain.length[k] : way[k] < -half ? domain.length[k] : 0;
+  }
+  return image;
+}
+
 }  // namespace
+
+template <int D>
+void Step<D>::take_off() {
+  bodies_.resize(grains_.size());
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    const auto& f = (*flights_)[i];
+    auto& b = bodies_[i];
+    b.place = f.place, b.velocity = f.velocity, b.spin = f.spin;
+    b.radius = f.radius, b.inverse_mass = grains_.inverse_mass[i];
+    b.inverse_inertia = grains_.inverse_inertia[i];
+    b.time = 0, b.collisions = 0;
+  }
+}
+
+template <int D>
+void Step<D>::arrive() {
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    auto& f = (*flights_)[i];
+    const auto& b = bodies_[i];
+    f.place = b.place, f.velocity = b.velocity, f.spin = b.spin;
+    f.orientation = turned<D>(f.orientation, b.spin, length_ - b.time);
+    f.place = b.place + length_ * (b.velocity + (0.5 * length_) * gravity_);
+    f.velocity = b.velocity + length_ * gravity_;
+    f.time = end_;
+    hard::Flight<D>::wrap(f.place, f.wraps, setup_.domain);
+  }
+}
 
 /// The pairs, and the grains with each wall that they can reach, by grain.
 template <int D>
-void Step<D>::list_partners(const search::PairNames& pairs, double begin) {
+void Step<D>::list_partners(const search::PairNames& pairs) {
   partners_.clear();
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    partners_.push_back({static_cast<std::uint32_t>(pairs.i[p]), static_cast<std::uint32_t>(pairs.j[p])});
-  const double dt = end_ - begin, fall = 0.5 * norm(setup_.gravity) * dt * dt;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const auto i = static_cast<std::uint32_t>(pairs.i[p]), j = static_cast<std::uint32_t>(pairs.j[p]);
+    partners_.push_back(
+        {.i = i, .j = j, .image = image_of<D>(bodies_[j].place - bodies_[i].place, setup_.domain)});
+  }
+  const double fall = 0.5 * norm(setup_.gravity) * length_ * length_;
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
     const auto& wall = setup_.walls[w];
     for (std::size_t i = 0; i < grains_.moving; ++i) {
-      const auto& f = flight(i);
+      const auto& b = bodies_[i];
       // Twice the way: a collision may throw it on, and at most a resting pile presses it anew.
-      const double reach = f.radius + 2 * ((norm(f.velocity) + wall.top_speed()) * dt + fall) +
+      const double reach = b.radius + 2 * ((norm(b.velocity) + wall.top_speed()) * length_ + fall) +
                            farthest_move * setup_.diameter;
-      if (wall.nearest(f.place, begin, setup_.domain).height < reach)
-        partners_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(grains_.size() + w)});
+      if (wall.nearest(b.place, begin_, setup_.domain).height < reach)
+        partners_.push_back(
+            {.i = static_cast<std::uint32_t>(i), .j = static_cast<std::uint32_t>(grains_.size() + w)});
     }
   }
   first_.assign(grains_.moving + 1, 0);
@@ -54,78 +98,128 @@ void Step<D>::list_partners(const search::PairNames& pairs, double begin) {
   each_grain([&](std::uint32_t i, std::uint32_t p) { of_[next[i]++] = p; });
 }
 
+/// The same as a flight, from the last collision on: what walls ask for.
 template <int D>
-std::int64_t Step<D>::version(const Partners& p) {
-  return flight(p.i).collisions + (moves(p.j) ? flight(p.j).collisions : 0);
-}
-
-/// Nearly all looks end here: the square of the distance falls within a time T by at most 2 T |d·v| + T² |d·a|, the
-/// first only if they approach. Of two that do not approach and feel no gravity between them nothing falls.
-template <int D>
-static bool cannot_meet(const hard::Approach<D>& approach, double time) {
-  const double closing = dot(approach.d, approach.v), pull = dot(approach.d, approach.a);
-  if (closing >= 0 && pull >= 0) return dot(approach.a, approach.a) == 0 || approach.gap(0) > 0;
-  const double least =
-      approach.gap(0) + 2 * time * std::min(closing, 0.0) + time * time * std::min(pull, 0.0);
-  return least > 1e-12 * approach.reach * approach.reach;
-}
-
-/// When the two meet, after both of their local times; infinity if not within the step.
-template <int D>
-double Step<D>::contact(const Partners& p) {
-  const auto& a = flight(p.i);
-  if (is_wall(p.j))
-    return hard::first_contact_with_wall(a, setup_.walls[p.j - grains_.size()], setup_.domain, end_);
-  const auto& b = flight(p.j);
-  const double from = moves(p.j) ? std::max(a.time, b.time) : a.time;
-  hard::Approach<D> approach;
-  const Vec<D> place_a = a.place_at(from), place_b = moves(p.j) ? b.place_at(from) : b.place;
-  approach.d = setup_.domain.way(place_b, place_a);
-  approach.v = a.velocity_at(from);
-  if (moves(p.j)) approach.v = approach.v - b.velocity_at(from);
-  approach.a = moves(p.j) ? Vec<D>{} : a.gravity;
-  approach.reach = a.radius + b.radius;
-  if (cannot_meet(approach, end_ - from)) return never;
-  const double t = from + hard::first_contact(approach);
-  return t <= end_ ? t : never;
+hard::Flight<D> Step<D>::flight(std::size_t i) const {
+  const auto& b = bodies_[i];
+  hard::Flight<D> f;
+  f.place = b.place + b.time * (b.velocity + (0.5 * b.time) * gravity_);
+  f.velocity = b.velocity + b.time * gravity_;
+  f.gravity = gravity_;
+  f.radius = b.radius;
+  f.time = begin_ + b.time;
+  return f;
 }
 
 template <int D>
-std::uint32_t Step<D>::root(std::uint32_t i) {
-  while (root_[i] != i) i = root_[i] = root_[root_[i]];
-  return i;
+std::int32_t Step<D>::version(const Partners& p) const {
+  return bodies_[p.i].collisions + (moves(p.j) ? bodies_[p.j].collisions : 0);
 }
 
-/// Finds who of these partners meet within the step, and puts them into islands. Returns how many islands there are.
+/// When the two meet, after both of their local times; infinity if not within the step. Partners that overlap meet at
+/// once if they approach. Where they part, gravity can bring them together again with no more than what it gives in a
+/// step, which is a contact that rests: the next step finds it.
 template <int D>
-std::size_t Step<D>::gather(const std::vector<std::uint32_t>& to_check) {
-  std::vector<Event> events;
-  std::iota(root_.begin(), root_.end(), 0);
-  for (const auto p : to_check) {
-    const auto& partners = partners_[p];
-    const double t = contact(partners);
-    if (t == never) continue;
-    events.push_back({t, p, version(partners)});
-    if (moves(partners.j)) {
-      const auto a = root(partners.i), b = root(partners.j);
-      root_[std::max(a, b)] = std::min(a, b);
-    }
+double Step<D>::contact(const Partners& p) const {
+  const auto& a = bodies_[p.i];
+  if (is_wall(p.j)) {
+    const double t = hard::first_contact_with_wall(flight(p.i), wall_of(p.j), setup_.domain, end_);
+    return t == never ? never : std::max(t - begin_, a.time);
   }
-  std::vector<std::uint32_t> number(root_.size(), nobody);
-  std::size_t count = 0;
-  for (const auto& event : events) {
-    auto& island = number[root(partners_[event.partners].i)];
-    if (island == nobody) {
-      island = static_cast<std::uint32_t>(count++);
-      if (islands_.size() < count) islands_.emplace_back();
-      islands_[island].events.clear(), islands_[island].hits.clear(), islands_[island].put_off = 0;
-    }
-    islands_[island].events.push_back(event);
+  const auto& b = bodies_[p.j];
+  const double from = std::max(a.time, b.time), left = length_ - from;  // of a fixed grain it stays 0
+  const Relative now = relative(p, from);
+  const double reach = a.radius + b.radius, gap = dot(now.way, now.way) - reach * reach;
+  const double closing = dot(now.way, now.velocity);
+  if (p.presses) {
+    const double off = settled * given_ * reach;
+    return closing < -off || (closing > off && p.pressed > 0) ? from : never;
   }
-  // From here on a grain's root is its island; who is in none has nobody.
-  for (std::uint32_t i = 0; i < root_.size(); ++i) number[i] = number[root(i)];
-  root_ = number;
-  return count;
+  if (gap <= 0) return closing < -negligible_ * reach ? from : never;
+  // Nearly all looks end here: the square of the distance falls within a time T by at most 2 T |d·v| + T² |d·a|, the
+  // first only if they approach.
+  if (moves(p.j)) {
+    if (closing >= 0 || gap + 2 * left * closing > closed * reach * reach) return never;
+    const double s = from + hard::first_contact(hard::Approach<D>{now.way, now.velocity, {}, reach});
+    return s <= length_ ? s : never;
+  }
+  const double pull = -dot(now.way, gravity_);
+  if (gap + 2 * left * std::min(closing, 0.0) + left * left * std::min(pull, 0.0) > closed * reach * reach)
+    return never;
+  const double s = from + hard::first_contact(hard::Approach<D>{now.way, now.velocity, -1 * gravity_, reach});
+  return s <= length_ ? s : never;
+}
+
+template <int D>
+bool Step<D>::spent(const Partners& p) const {
+  return p.collisions >= setup_.collisions_per_pair || bodies_[p.i].collisions >= collisions_per_grain ||
+         (moves(p.j) && bodies_[p.j].collisions >= collisions_per_grain);
+}
+
+/// Who of those to look at meets within the step, in order of time; of several at once those with lower ids first:
+/// partners are numbered so.
+template <int D>
+void Step<D>::find_events(Team& team) {
+  times_.resize(to_check_.size());
+  Team& members = to_check_.size() < looks_worth_sharing ? Team::alone() : team;
+  members.split(to_check_.size(), [&](Part range, std::size_t) {
+    for (auto k = range.begin; k < range.end; ++k) times_[k] = contact(partners_[to_check_[k]]);
+  });
+  events_.clear();
+  for (std::size_t k = 0; k < to_check_.size(); ++k)
+    if (times_[k] < never) events_.push_back({times_[k], to_check_[k], version(partners_[to_check_[k]])});
+  std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
+    return a.time != b.time ? a.time < b.time : a.partners < b.partners;
+  });
+}
+
+/// Lets everybody who meets collide, each pair once. Whoever has collided since the look is looked at again.
+template <int D>
+void Step<D>::do_events() {
+  for (const auto& event : events_) {
+    Partners& p = partners_[event.partners];
+    meet(p, event.version == version(p) ? event.time : contact(p));
+  }
+}
+
+/// Looks again, and lets who meets collide at once: a pair later in the sweep sees what those before it did.
+template <int D>
+void Step<D>::sweep() {
+  for (const auto k : to_check_) meet(partners_[k], contact(partners_[k]));
+}
+
+/// Lets two collide if they do meet and the bounds allow it.
+template <int D>
+void Step<D>::meet(Partners& p, double s) {
+  if (s == never) return;
+  if (spent(p)) {
+    ++outcome_.put_off;
+    return;
+  }
+  if (!collide(p, s)) return;
+  for (const auto g : {p.i, p.j})
+    if (moves(g) && !moved_[g]) moved_[g] = 1, movers_.push_back(g);
+}
+
+/// All partners of those who have moved.
+template <int D>
+void Step<D>::list_to_check() {
+  to_check_.clear();
+  const bool most = 4 * movers_.size() > grains_.moving;  // then looking through all is faster than sorting
+  if (most) {
+    for (std::uint32_t p = 0; p < partners_.size(); ++p)
+      if (moved_[partners_[p].i] || (moves(partners_[p].j) && moved_[partners_[p].j])) to_check_.push_back(p);
+  } else {
+    for (const auto i : movers_)
+      for (auto k = first_[i]; k < first_[i + 1]; ++k) {
+        const auto& p = partners_[of_[k]];
+        const auto other = p.i == i ? p.j : p.i;
+        if (i < other || !moves(other) || !moved_[other]) to_check_.push_back(of_[k]);
+      }
+    std::sort(to_check_.begin(), to_check_.end());
+  }
+  for (const auto i : movers_) moved_[i] = 0;
+  movers_.clear();
 }
 
 template <int D>
@@ -133,140 +227,161 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
                                                   const search::PairNames& pairs, double end, Team& team) {
   flights_ = &flights;
   outcome_.hits.clear();
-  outcome_.put_off = 0;
-  end_ = end;
-  list_partners(pairs, end - setup_.time_step);
-  root_.resize(grains_.moving);
-  grain_collisions_.assign(grains_.moving, 0);
-  done_.assign(partners_.size(), 0);
-  std::vector<std::uint32_t> to_check(partners_.size());
-  std::iota(to_check.begin(), to_check.end(), 0);
-  for (std::size_t count; (count = gather(to_check)) > 0;) {
-    moved_.assign(grains_.moving, 0);
-    Team& members = count < islands_worth_sharing ? Team::alone() : team;
-    members.run([&](std::size_t member) {
-      for (std::size_t k = member; k < count; k += members.size()) collide(islands_[k]);
-    });
-    to_check.clear();
-    std::vector<std::uint32_t> moved;
-    for (std::size_t k = 0; k < count; ++k) {
-      outcome_.put_off += islands_[k].put_off;
-      for (const auto& hit : islands_[k].hits) {
-        outcome_.hits.push_back(hit);
-        for (const auto g : {hit.i, hit.j})
-          if (moves(g) && !moved_[g]) moved_[g] = 1, moved.push_back(static_cast<std::uint32_t>(g));
-      }
-    }
-    // Within an island all is looked at; what remains are moved grains with those outside.
-    for (const auto i : moved)
-      for (auto p = first_[i]; p < first_[i + 1]; ++p) {
-        const auto& partners = partners_[of_[p]];
-        if (moves(partners.j) && root_[partners.i] != root_[partners.j]) to_check.push_back(of_[p]);
-      }
-    std::sort(to_check.begin(), to_check.end());
-    to_check.erase(std::unique(to_check.begin(), to_check.end()), to_check.end());
-    std::erase_if(to_check, [&](std::uint32_t p) {
-      const auto& partners = partners_[p];
-      const auto spent = [&](std::uint32_t g) {
-        return moves(g) && grain_collisions_[g] >= collisions_per_grain;
-      };
-      return partners.collisions >= setup_.collisions_per_pair || spent(partners.i) || spent(partners.j);
-    });
-  }
-  std::sort(outcome_.hits.begin(), outcome_.hits.end(), [](const Hit<D>& a, const Hit<D>& b) {
-    return std::tie(a.time, a.i, a.j) < std::tie(b.time, b.i, b.j);
+  outcome_.collisions = outcome_.put_off = 0;
+  outcome_.normal_loss = outcome_.shear_loss = outcome_.wall_work = 0;
+  end_ = end, length_ = setup_.time_step, begin_ = end - length_;
+  gravity_ = grains_.moving > 0 ? flights[0].gravity : Vec<D>{};
+  given_ = norm(setup_.gravity) * length_, negligible_ = rounding * given_;
+  take_off();
+  list_partners(pairs);
+  moved_.assign(grains_.moving, 0);
+  lean();
+  to_check_.resize(partners_.size());
+  std::iota(to_check_.begin(), to_check_.end(), 0);
+  find_events(team);
+  do_events();
+  for (list_to_check(); !to_check_.empty(); list_to_check()) sweep();
+  remember();
+  arrive();
+  outcome_.order.resize(outcome_.hits.size());
+  std::iota(outcome_.order.begin(), outcome_.order.end(), 0);
+  std::sort(outcome_.order.begin(), outcome_.order.end(), [this](std::uint32_t m, std::uint32_t n) {
+    const auto &a = outcome_.hits[m], &b = outcome_.hits[n];
+    return std::tie(a.first, a.i, a.j) < std::tie(b.first, b.i, b.j);
   });
   return outcome_;
 }
 
-namespace {
-
-/// The earliest event comes out of the heap first, of several the one with the lower ids: partners are numbered so.
-constexpr auto later = [](const auto& a, const auto& b) {
-  return std::tie(a.time, a.partners) > std::tie(b.time, b.partners);
-};
-
-}  // namespace
-
+/// Those who rested on each other in the step before, and still touch, begin with the impulses of that.
 template <int D>
-void Step<D>::push(Island& island, std::uint32_t p) {
-  const double t = contact(partners_[p]);
-  if (t == never) return;
-  island.events.push_back({t, p, version(partners_[p])});
-  std::push_heap(island.events.begin(), island.events.end(), later);
+void Step<D>::lean() {
+  std::size_t at = 0;
+  for (auto& p : partners_) {
+    if (is_wall(p.j)) return;  // they come last
+    const auto earlier = [&](const Pressing<D>& q) { return q.i < p.i || (q.i == p.i && q.j < p.j); };
+    while (at < pressings_.size() && earlier(pressings_[at])) ++at;
+    if (at == pressings_.size()) return;
+    const auto& last = pressings_[at];
+    if (last.i != p.i || last.j != p.j) continue;
+    const Relative before = relative(p, 0);
+    const double distance = norm(before.way);
+    if (distance > bodies_[p.i].radius + bodies_[p.j].radius) continue;
+    const auto& a = bodies_[p.i];
+    const auto& b = bodies_[p.j];
+    laws::Collider<D> i{a.velocity, a.spin, a.radius, a.inverse_mass, a.inverse_inertia};
+    laws::Collider<D> j{i.velocity + before.velocity, b.spin, b.radius, b.inverse_mass, b.inverse_inertia};
+    const Vec<D> n = (1 / distance) * before.way;
+    press_to(p, 0, before, n, last.normal, last.shear - dot(last.shear, n) * n, i, j);
+  }
 }
 
 template <int D>
-void Step<D>::collide(Island& island) {
-  std::make_heap(island.events.begin(), island.events.end(), later);
-  while (!island.events.empty()) {
-    std::pop_heap(island.events.begin(), island.events.end(), later);
-    const Event event = island.events.back();
-    island.events.pop_back();
-    Partners& p = partners_[event.partners];
-    if (event.version != version(p)) continue;
-    const auto spent = [&](std::uint32_t g) {
-      return moves(g) && grain_collisions_[g] >= collisions_per_grain;
-    };
-    if (p.collisions >= setup_.collisions_per_pair || spent(p.i) || spent(p.j)) {
-      ++island.put_off;
-      continue;
-    }
-    if (!collide(island, p, event.time)) continue;
-    const auto own = root_[p.i];
-    const auto look = [&](std::uint32_t i, std::uint32_t but) {
-      for (auto k = first_[i]; k < first_[i + 1]; ++k) {
-        const auto& near = partners_[of_[k]];
-        const auto other = near.i == i ? near.j : near.i;
-        if (other != but && (!moves(other) || root_[other] == own)) push(island, of_[k]);
-      }
-    };
-    push(island, event.partners);
-    look(p.i, p.j);
-    if (moves(p.j)) look(p.j, p.i);
-  }
+void Step<D>::remember() {
+  pressings_.clear();
+  for (const auto& p : partners_)
+    if (p.presses && p.pressed > 0) pressings_.push_back({p.i, p.j, p.pressed, p.sheared});
 }
 
 /// Lets two collide now; false if they only touch.
 template <int D>
-bool Step<D>::collide(Island& island, Partners& p, double time) {
-  auto& a = flight(p.i);
-  Hit<D> hit{time, p.i, p.j, a.place_at(time), {}, {}, {}, 0};
-  laws::Collider<D> i{a.velocity_at(time), a.spin, a.radius, grains_.inverse_mass[p.i],
-                      grains_.inverse_inertia[p.i]},
-      j;
-  auto contact = setup_.contact;
+bool Step<D>::collide(Partners& p, double s) {
+  auto& a = bodies_[p.i];
+  laws::Collider<D> i{a.velocity + s * gravity_, a.spin, a.radius, a.inverse_mass, a.inverse_inertia}, j;
+  Relative before;
+  laws::Walton law = setup_.contact.tangential;
+  const laws::Restitution* restitution = &setup_.contact.restitution;
+  laws::Restitution own;
   if (is_wall(p.j)) {
-    const auto& wall = setup_.walls[p.j - grains_.size()];
-    const auto touch = wall.nearest(hit.place, time, setup_.domain);
-    contact = contact.with(wall.surface);
-    hit.way = -touch.height * touch.normal;
-    j = hard::collider_of(wall, touch, time);
+    const auto contact = setup_.contact.with(wall_of(p.j).surface);
+    law = contact.tangential, own = contact.restitution, restitution = &own;
+    const Vec<D> place = a.place + s * (a.velocity + (0.5 * s) * gravity_);
+    const auto touch = wall_of(p.j).nearest(place, begin_ + s, setup_.domain);
+    before.way = -touch.height * touch.normal;
+    j = hard::collider_of(wall_of(p.j), touch, begin_ + s);
+    before.velocity = j.velocity - i.velocity;
   } else {
-    const auto& b = flight(p.j);
-    hit.way = setup_.domain.way(hit.place, moves(p.j) ? b.place_at(time) : b.place);
-    j = {moves(p.j) ? b.velocity_at(time) : Vec<D>{}, b.spin, b.radius, grains_.inverse_mass[p.j],
-         grains_.inverse_inertia[p.j]};
+    const auto& b = bodies_[p.j];
+    before = relative(p, s);
+    j = {i.velocity + before.velocity, b.spin, b.radius, b.inverse_mass, b.inverse_inertia};
   }
-  const Vec<D> n = (1 / norm(hit.way)) * hit.way, surface = j.velocity;
-  hit.velocity = j.velocity - i.velocity;
-  const double v_n = dot(hit.velocity, n), given = norm(setup_.gravity) * setup_.time_step;
-  if (!(v_n < -rounding * given)) return false;
-  const bool rests = -v_n < resting * given;
-  const laws::Walton law = rests ? laws::Walton{contact.tangential.friction, 0} : contact.tangential;
-  hit.done = law(n, rests ? 0 : laws::restitution_at(contact.restitution, v_n), i, j);
-  if (is_wall(p.j)) hit.wall_work = -dot(hit.done.impulse, surface);
-  const auto go_on = [&](std::size_t k, const laws::Collider<D>& after) {
-    auto& f = flight(k);
-    f.place = f.place_at(time), f.orientation = f.orientation_at(time), f.time = time;
-    f.velocity = after.velocity, f.spin = after.spin;
-    ++f.collisions, ++grain_collisions_[k];
-  };
-  go_on(p.i, i);
-  if (moves(p.j)) go_on(p.j, j);
-  ++p.collisions;
-  island.hits.push_back(hit);
+  const Vec<D> n = (1 / norm(before.way)) * before.way, surface = j.velocity;
+  const double v_n = dot(before.velocity, n);
+  const bool rests = -v_n < resting * given_;
+  if (rests && !is_wall(p.j) && (p.presses || v_n < -negligible_)) return press(p, s, before, n, i, j), true;
+  if (!(v_n < -negligible_)) return false;
+  p.presses = false;
+  if (rests) law.beta = 0;
+  const auto done = law(n, rests ? 0 : laws::restitution_at(*restitution, v_n), i, j);
+  outcome_.normal_loss += done.normal_loss, outcome_.shear_loss += done.shear_loss;
+  if (is_wall(p.j)) outcome_.wall_work -= dot(done.impulse, surface);
+  ++outcome_.collisions;
+  pass(p, s, before, done.impulse, i.spin, j.spin);
   return true;
+}
+
+/// One turn of two that rest on each other: what takes away their approach and their slip, as far as the sum of all turns
+/// of the step may.
+template <int D>
+void Step<D>::press(Partners& p, double s, const Relative& before, const Vec<D>& n, laws::Collider<D>& i,
+                    laws::Collider<D>& j) {
+  const double v_n = dot(before.velocity, n);
+  const Vec<D> slip = laws::surface_slip(n, i, j);
+  const double pressed = std::max(0.0, p.pressed - over_relaxation * v_n / (i.inverse_mass + j.inverse_mass));
+  Vec<D> sheared = p.sheared - laws::slip_mass(i, j) * slip;
+  const double shear = norm(sheared), most = setup_.contact.tangential.friction * pressed;
+  if (shear > most) sheared = (most / shear) * sheared;
+  ++outcome_.collisions;
+  press_to(p, s, before, n, pressed, sheared, i, j);
+}
+
+/// Makes the impulses of the step these in all.
+template <int D>
+void Step<D>::press_to(Partners& p, double s, const Relative& before, const Vec<D>& n, double pressed,
+                       const Vec<D>& sheared, laws::Collider<D>& i, laws::Collider<D>& j) {
+  p.presses = true;
+  const double v_n = dot(before.velocity, n);
+  const Vec<D> slip = laws::surface_slip(n, i, j);
+  const Vec<D> sideways = sheared - p.sheared, impulse = (pressed - p.pressed) * n + sideways;
+  laws::apply_impulse(n, impulse, i, j);
+  const double mean_v_n = 0.5 * (v_n + dot(j.velocity - i.velocity, n));
+  outcome_.normal_loss -= (pressed - p.pressed) * mean_v_n;
+  outcome_.shear_loss -= dot(sideways, mean_v_n * n + 0.5 * (slip + laws::surface_slip(n, i, j)));
+  p.pressed = pressed, p.sheared = sheared;
+  pass(p, s, before, impulse, i.spin, j.spin);
+}
+
+/// Hands on an impulse: the flights go on with other velocities.
+template <int D>
+void Step<D>::pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse,
+                   const Vec<turns<D>>& spin_i, const Vec<turns<D>>& spin_j) {
+  note(p, s, before, impulse);
+  const auto go_on = [&](std::size_t k, const Vec<D>& impulse, const Vec<turns<D>>& spin) {
+    auto& body = bodies_[k];
+    auto& f = (*flights_)[k];
+    f.orientation = turned<D>(f.orientation, body.spin, s - body.time);
+    const Vec<D> gained = body.inverse_mass * impulse;
+    body.place = body.place - s * gained, body.velocity = body.velocity + gained;
+    body.spin = spin, body.time = s;
+    ++body.collisions;
+  };
+  go_on(p.i, -1 * impulse, spin_i);
+  if (moves(p.j)) go_on(p.j, impulse, spin_j);
+  ++p.collisions;
+}
+
+template <int D>
+void Step<D>::note(Partners& p, double s, const Relative& before, const Vec<D>& impulse) {
+  if (p.collisions == 0) {
+    const auto& a = bodies_[p.i];
+    const Vec<D> place = a.place + s * (a.velocity + (0.5 * s) * gravity_);
+    p.hit = static_cast<std::uint32_t>(outcome_.hits.size());
+    outcome_.hits.push_back({begin_ + s, begin_ + s, p.i, p.j, place, before.way, before.velocity, impulse});
+    return;
+  }
+  auto& hit = outcome_.hits[p.hit];
+  hit.last = begin_ + s;
+  hit.further = hit.further + impulse;
+  ++hit.collisions;
 }
 
 template class Step<2>;
