@@ -192,12 +192,6 @@ TEST_CASE("a sorted engine goes on from a checkpoint, and to impacts, as if noth
 
 namespace {
 
-/// Normal and tangential laws that both remember.
-const laws::ContactLaws remembering{
-    laws::WaltonBraun::from_restitution(SmallChute::stiffness, SmallChute::restitution),
-    laws::CundallStrack{laws::PairCoefficient{2.0 / 7 * SmallChute::stiffness},
-                        laws::CutOffSpring{0.5, true}}};
-
 /// Sorting renames the grains of contacts that last, and turns some of them round: what they remember must go along. Before
 /// rounding has grown, in which the two orders of sums differ, all is as without.
 template <int D>
