@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "laws/keys.hpp"
 #include "laws/slip.hpp"
@@ -29,9 +30,13 @@ struct CutOffSpring {
   Vec<T> force(const Slip<T>& slip, double stiffness, Vec<T>& zeta) const {
     zeta = zeta + slip.way;
     const double limit = friction * std::abs(slip.normal_force), length = magnitude(zeta);
-    if (stiffness * length <= limit) return -stiffness * zeta;
-    const Vec<T> force = (-limit / length) * zeta;
-    if (cap) zeta = stiffness > 0 ? (-1 / stiffness) * force : Vec<T>{};
+    // selections instead of branches, for loops over many contacts
+    const double uncut = cap ? 0 : std::numeric_limits<double>::infinity();
+    const bool sticks = stiffness * length <= limit, keeps = stiffness * length <= limit + uncut;
+    const double slides = -limit / length, factor = sticks ? -stiffness : slides;
+    const double inverse = -1 / stiffness, back = stiffness > 0 ? inverse : 0;
+    const Vec<T> force = factor * zeta, cut = back * force;
+    for (int k = 0; k < T; ++k) zeta[k] = keeps ? zeta[k] : cut[k];
     return force;
   }
 
@@ -39,8 +44,9 @@ struct CutOffSpring {
   template <int T>
   double energy(const Slip<T>& slip, double stiffness, const Vec<T>& zeta) const {
     const double limit = friction * std::abs(slip.normal_force), length = magnitude(zeta);
-    return stiffness * length <= limit ? 0.5 * stiffness * length * length
-                                       : limit * length - 0.5 * limit * limit / stiffness;
+    const double spring = 0.5 * stiffness * length * length,
+                 beyond = limit * length - 0.5 * limit * limit / stiffness;
+    return stiffness * length <= limit ? spring : beyond;
   }
 };
 

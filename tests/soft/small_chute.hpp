@@ -43,6 +43,12 @@ struct SmallChute {
   }
 };
 
+/// Contacts that remember how they were loaded and how far they slipped.
+inline const laws::ContactLaws remembering{
+    laws::WaltonBraun::from_restitution(SmallChute::stiffness, SmallChute::restitution),
+    laws::CundallStrack{laws::PairCoefficient{2.0 / 7 * SmallChute::stiffness},
+                        laws::CutOffSpring{0.5, true}}};
+
 /// Loose gas in three dimensions above a plane of fixed grains, periodic in x and y.
 inline Grains<3> small_box() {
   Random random(4, Purpose::start);

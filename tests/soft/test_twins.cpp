@@ -8,13 +8,6 @@ using namespace chute::test;
 
 namespace {
 
-/// Contacts that remember how they were loaded and how far they slipped: memories must survive every new
-/// list.
-const laws::ContactLaws remembering{
-    laws::WaltonBraun::from_restitution(SmallChute::stiffness, SmallChute::restitution),
-    laws::CundallStrack{laws::PairCoefficient{2.0 / 7 * SmallChute::stiffness},
-                        laws::CutOffSpring{0.5, true}}};
-
 template <int D>
 std::string state(const soft::SoftEngine<D>& engine) {
   std::ostringstream out;

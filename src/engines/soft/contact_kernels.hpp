@@ -6,7 +6,6 @@
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
 #include "core/team.hpp"
-#include "engines/soft/contact_memory.hpp"
 #include "engines/soft/contacts.hpp"
 #include "laws/list.hpp"
 #include "search/coarse_places.hpp"
@@ -213,44 +212,5 @@ struct ShearKernel {
     }
   }
 };
-
-/// What the surfaces of each contact do, for laws with a memory. What they take is the work done against them
-/// minus the change of what is stored: work by the mean of the forces at the ends of the step, which for a
-/// spring is exact. A force that is there at once when a contact begins or ends acts for half a step before
-/// or after, as it does in the integration.
-template <class Law, int D>
-void remembering_shear(const Law& law, ContactMemory<D>& memory, double duration, Part range,
-                       Contacts<D>& contacts) {
-  constexpr int T = turns<D>;
-  const double inverse_duration = duration > 0 ? 1 / duration : 0;
-  for (std::size_t c = range.begin; c < range.end; ++c) {
-    laws::Slip<T> slip{
-        {}, contacts.normal_force[c], contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c])};
-    Vec<T> before, way;
-    for (int k = 0; k < T; ++k) {
-      slip.way[k] = memory.way()[k][c];
-      way[k] = memory.fresh(c) ? duration * contacts.slip[k][c] : slip.way[k];
-      before[k] = memory.previous_force(k)[c];
-    }
-    typename Law::template Memory<T> own;
-    for (int v = 0; v < Law::vectors; ++v)
-      for (int k = 0; k < T; ++k) own.vector[static_cast<std::size_t>(v)][k] = memory.vector_column(v, k)[c];
-    for (int s = 0; s < Law::scalars; ++s)
-      own.scalar[static_cast<std::size_t>(s)] = memory.scalar_column(s)[c];
-
-    const Vec<T> force = law(slip, own);
-    const double stored = law.energy(slip, own);
-    const double taken = -0.5 * dot(before + force, way) - (stored - memory.stored_column()[c]);
-
-    for (int v = 0; v < Law::vectors; ++v)
-      for (int k = 0; k < T; ++k) memory.vector_column(v, k)[c] = own.vector[static_cast<std::size_t>(v)][k];
-    for (int s = 0; s < Law::scalars; ++s)
-      memory.scalar_column(s)[c] = own.scalar[static_cast<std::size_t>(s)];
-    for (int k = 0; k < T; ++k) memory.previous_force(k)[c] = contacts.shear_force[k][c] = force[k];
-    memory.stored_column()[c] = stored;
-    contacts.stored[c] += stored;
-    contacts.shear_loss[c] = taken * inverse_duration;
-  }
-}
 
 }  // namespace chute::soft

@@ -1,8 +1,10 @@
 #include "engines/soft/contact_memory.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <utility>
+
+#include "engines/soft/memory_kernels.hpp"
 
 namespace chute::soft {
 
@@ -22,93 +24,123 @@ ContactMemory<D>::ContactMemory(const laws::ContactLaws& laws, SlipRule rule) : 
   columns_.resize(static_cast<std::size_t>(first_scalar() + (shear_ ? 1 + scalars_ : 0)));
 }
 
-template <int D>
-void ContactMemory<D>::carry(const Grains<D>& grains, const Contacts<D>& contacts, double duration) {
-  match(contacts, duration);
-  if (!shear_) return;
-  if constexpr (D == 3) turn(grains, contacts, duration);
-  find_ways(contacts, duration);
-}
-
 /// Both lists are ordered by (i, j).
 template <int D>
 void ContactMemory<D>::match(const Contacts<D>& contacts, double duration) {
   const std::size_t count = contacts.count;
-  source_.assign(count, -1);
+  source_.resize(count);
   released_ = 0;
   const auto end = [&](std::size_t o) {
     if (!shear_) return;
     released_ += stored_column()[o];
     for (int k = 0; k < T; ++k) released_ -= 0.5 * duration * previous_force(k)[o] * previous_slip(k)[o];
   };
+  const auto name = [](const std::int32_t* i, const std::int32_t* j, std::size_t c) {
+    return static_cast<std::int64_t>(i[c]) << 32 | j[c];
+  };
+  const auto *i = contacts.i.data(), *j = contacts.j.data(), *i_old = i_.data(), *j_old = j_.data();
   std::size_t o = 0;
   for (std::size_t c = 0; c < count; ++c) {
-    const std::pair now{contacts.i[c], contacts.j[c]};
-    for (; o < count_ && std::pair{i_[o], j_[o]} < now; ++o) end(o);
-    if (o < count_ && std::pair{i_[o], j_[o]} == now) source_[c] = static_cast<std::int32_t>(o++);
+    const auto now = name(i, j, c);
+    while (o < count_ && name(i_old, j_old, o) < now) end(o++);
+    const bool known = o < count_ && name(i_old, j_old, o) == now;
+    source_[c] = known ? static_cast<std::int32_t>(o) : -1;
+    o += known;
   }
   for (; o < count_; ++o) end(o);
 
-  std::swap(columns_, older_);
-  columns_.resize(older_.size());
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    columns_[k].resize(count);
-    for (std::size_t c = 0; c < count; ++c)
-      columns_[k][c] = source_[c] < 0 ? 0 : older_[k][static_cast<std::size_t>(source_[c])];
-  }
   i_.assign(contacts.i.begin(), contacts.i.begin() + static_cast<std::ptrdiff_t>(count));
   j_.assign(contacts.j.begin(), contacts.j.begin() + static_cast<std::ptrdiff_t>(count));
   count_ = count;
-}
-
-template <int D>
-void ContactMemory<D>::turn(const Grains<D>& grains, const Contacts<D>& contacts, double duration) {
+  // at least one: where nothing was, new contacts still look at the first and make nothing of it
+  const std::size_t size = std::max<std::size_t>(1, count);
+  std::swap(columns_, older_);
+  columns_.resize(older_.size());
+  for (auto& column : older_)
+    if (column.empty()) column.resize(1);
+  for (auto& column : columns_) column.resize(size);
+  if (!shear_) return;
+  for (auto& way : way_) way.resize(size);
   if constexpr (D == 3) {
-    for (std::size_t c = 0; c < count_; ++c) {
-      if (source_[c] < 0) continue;
-      const auto o = static_cast<std::size_t>(source_[c]);
-      const auto i = static_cast<std::size_t>(i_[c]), j = static_cast<std::size_t>(j_[c]);
-      Vec<3> old, now, spins;
-      for (int k = 0; k < 3; ++k) {
-        old[k] = normal_[k][o];
-        now[k] = contacts.normal[k][c];
-        spins[k] = grains.spin[k][i] + (j < grains.size() ? grains.spin[k][j] : 0);  // walls do not turn
-      }
-      const Vec<3> axis = cross(old, now);
-      const double cosine = dot(old, now), twist = 0.5 * duration * dot(spins, now);
-      const double c_twist = std::cos(twist), s_twist = std::sin(twist);
-      for (int v = 0; v < 2 + vectors_; ++v) {
-        Vec<3> a;
-        for (int k = 0; k < 3; ++k) a[k] = column(first_vector() + v * T + k)[c];
-        a = cosine * a + cross(axis, a) + (dot(axis, a) / (1 + cosine)) * axis;
-        a = c_twist * a + s_twist * cross(now, a);
-        a = a -
-            dot(a, now) * now;  // rounding must not tilt it out of the plane in the course of a long contact
-        for (int k = 0; k < 3; ++k) column(first_vector() + v * T + k)[c] = a[k];
-      }
-    }
-    for (int k = 0; k < 3; ++k)
-      normal_[k].assign(contacts.normal[k].begin(),
-                        contacts.normal[k].begin() + static_cast<std::ptrdiff_t>(count_));
+    std::swap(normal_, older_normal_);
+    for (auto& n : older_normal_)
+      if (n.empty()) n.resize(1);
+    for (auto& n : normal_) n.resize(size);
   }
 }
 
 template <int D>
-void ContactMemory<D>::find_ways(const Contacts<D>& contacts, double duration) {
-  for (int k = 0; k < T; ++k) {
-    way_[k].resize(count_);
-    double* before = previous_slip(k);
-    for (std::size_t c = 0; c < count_; ++c) {
-      const double now = contacts.slip[k][c];
-      if (source_[c] < 0) {  // it began when ξ was 0
-        const double closing = contacts.closing[c];
-        way_[k][c] = now * (closing > 0 ? std::min(duration, contacts.overlap[c] / closing) : duration);
-      } else {
-        way_[k][c] = duration * (rule_ == SlipRule::trapezoid ? 0.5 * (before[c] + now) : now);
-      }
-      before[c] = now;
+void ContactMemory<D>::carry(const Grains<D>& grains, const Contacts<D>& contacts, double duration,
+                             Part range, Isa isa) {
+  const auto take_over = [&](int k) {
+    run_kernel(isa,
+               TakeOverKernel{source_.data(), older_[static_cast<std::size_t>(k)].data(), range, column(k)});
+  };
+  for (int k = 0; k < normal_count_; ++k) take_over(k);
+  if (!shear_) return;
+  for (int k = 0; k < 1 + scalars_; ++k) take_over(first_scalar() + k);
+  vectors_ == 1 ? carry_vectors<3>(grains, contacts, duration, range, isa)
+                : carry_vectors<4>(grains, contacts, duration, range, isa);
+  if constexpr (D == 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      std::copy(contacts.normal[k].data() + range.begin, contacts.normal[k].data() + range.end,
+                normal_[k].data() + range.begin);
+}
+
+/// Velocity of the slip, force, and V − 2 vectors of the law.
+template <int D>
+template <int V>
+void ContactMemory<D>::carry_vectors(const Grains<D>& grains, const Contacts<D>& contacts, double duration,
+                                     Part range, Isa isa) {
+  CarryKernel<T, V> kernel{};
+  kernel.source = source_.data(), kernel.first = contacts.i.data(), kernel.second = contacts.j.data();
+  kernel.overlap = contacts.overlap.data(), kernel.closing = contacts.closing.data();
+  kernel.grains = static_cast<std::int32_t>(grains.size());
+  kernel.duration = duration, kernel.trapezoid = rule_ == SlipRule::trapezoid, kernel.range = range;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(T); ++k) {
+    kernel.slip[k] = contacts.slip[k].data(), kernel.way[k] = way_[k].data();
+    if constexpr (D == 3)
+      kernel.spin[k] = grains.spin[k].data(), kernel.old_normal[k] = older_normal_[k].data(),
+      kernel.normal[k] = contacts.normal[k].data();
+    for (std::size_t v = 0; v < static_cast<std::size_t>(V); ++v) {
+      const auto at = static_cast<std::size_t>(first_vector()) + v * static_cast<std::size_t>(T) + k;
+      kernel.old[v][k] = older_[at].data(), kernel.now[v][k] = columns_[at].data();
     }
   }
+  run_kernel(isa, kernel);
+}
+
+/// A contact whose grains change places is seen from the other side: in space its vectors turn round; in the plane they
+/// are components along s, which turns with n as well.
+template <int D>
+void ContactMemory<D>::reorder(std::span<const std::int32_t> place) {
+  std::vector<std::int32_t> from(count_);
+  std::iota(from.begin(), from.end(), 0);
+  std::vector<char> turned(count_);
+  const auto new_place = [&](std::int32_t k) {
+    return static_cast<std::size_t>(k) < place.size() ? place[static_cast<std::size_t>(k)] : k;
+  };
+  for (std::size_t c = 0; c < count_; ++c) {
+    i_[c] = new_place(i_[c]), j_[c] = new_place(j_[c]);
+    turned[c] = i_[c] > j_[c];
+    if (turned[c]) std::swap(i_[c], j_[c]);
+  }
+  if constexpr (D == 3)
+    for (std::size_t c = 0; c < count_; ++c) {
+      if (!turned[c] || !shear_) continue;
+      for (int k = first_vector(); k < first_scalar(); ++k) column(k)[c] *= -1;
+      for (auto& n : normal_) n[c] *= -1;
+    }
+  std::sort(from.begin(), from.end(), [&](std::int32_t a, std::int32_t b) {
+    const auto x = static_cast<std::size_t>(a), y = static_cast<std::size_t>(b);
+    return std::pair(i_[x], j_[x]) < std::pair(i_[y], j_[y]);
+  });
+  chute::reorder(i_, from);
+  chute::reorder(j_, from);
+  for (auto& column : columns_)
+    if (!column.empty()) chute::reorder(column, from);
+  for (auto& n : normal_)
+    if (!n.empty()) chute::reorder(n, from);
 }
 
 template class ContactMemory<2>;

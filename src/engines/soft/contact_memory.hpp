@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/wrong_state.hpp"
+#include "core/kernel.hpp"
 #include "engines/soft/contacts.hpp"
 #include "laws/list.hpp"
 
@@ -19,7 +20,7 @@ enum class SlipRule {
 /// What laws with a memory keep of each contact, from the step in which it begins to the one in which ξ
 /// returns to 0. It belongs to the pair (i, j), whatever the neighbour list does, however often the pair
 /// crosses a periodic border, and is part of a checkpoint. Carrying it on is a merge of two lists that are
-/// ordered alike.
+/// ordered alike, and one pass from the old numbers to the new.
 ///
 /// Vectors in the contact plane turn with it in 3D: as n turns, by the smallest rotation from the old n to
 /// the new, and about n by the mean of the two grains' spins, so that a pair that turns as one body keeps its
@@ -34,12 +35,16 @@ class ContactMemory {
   /// Does any law of this contact have a memory? Without one nothing else here is called.
   bool needed() const { return normal_count_ > 0 || shear_; }
 
-  /// Takes over what the contacts of the previous step remember, `duration` ago; new ones begin with nothing.
-  /// Sets `way`: how far the surfaces of each contact slipped since, for a new contact since it began.
-  void carry(const Grains<D>& grains, const Contacts<D>& contacts, double duration);
+  /// Finds, in one pass by one thread, where each contact's memory is among those of the previous step.
+  void match(const Contacts<D>& contacts, double duration);
+  /// Takes over what contacts in `range` remember, `duration` ago; new ones begin with nothing. Sets `way`: how far the
+  /// surfaces of each contact slipped since, for a new contact since it began. After `match`.
+  void carry(const Grains<D>& grains, const Contacts<D>& contacts, double duration, Part range, Isa isa);
+  /// The grain that was k is now place[k]; fixed ones and walls stay.
+  void reorder(std::span<const std::int32_t> place);
 
-  /// Did this contact begin in this step?
-  bool fresh(std::size_t contact) const { return source_[contact] < 0; }
+  /// Where a contact's memory was in the previous step; negative: it began in this one.
+  const std::int32_t* source() const { return source_.data(); }
   /// What contacts that ended in this step still have to account for: the energy of their springs, which is
   /// lost, and the work of the second half of their last step.
   double released() const { return released_; }
@@ -51,14 +56,15 @@ class ContactMemory {
   double* previous_slip(int c) { return column(first_vector() + c); }
   double* previous_force(int c) { return column(first_vector() + T + c); }
   double* stored_column() { return column(first_scalar()); }
-  const std::array<Array, T>& way() const { return way_; }
+  const double* way(int c) const { return way_[static_cast<std::size_t>(c)].data(); }
 
   template <class Archive>
   void serialize(Archive& archive) {
     const auto columns = columns_.size();
     archive(count_, i_, j_, columns_, normal_);
-    const auto fits = [&](const auto& list) { return list.size() == count_; };
-    if (columns_.size() != columns || !fits(i_) || !fits(j_) || !std::ranges::all_of(columns_, fits) ||
+    const auto fits = [&](const auto& list) { return list.size() >= count_; };  // some are padded
+    if (columns_.size() != columns || i_.size() != count_ || j_.size() != count_ ||
+        !std::ranges::all_of(columns_, fits) ||
         !(std::ranges::all_of(normal_, fits) ||
           std::ranges::all_of(normal_, [](const auto& n) { return n.empty(); })))
       wrong_state();
@@ -73,7 +79,7 @@ class ContactMemory {
   // normal law's numbers | previous slip, previous force, the law's vectors | stored energy, the law's
   // scalars
   std::vector<Array> columns_, older_;
-  std::array<Array, D> normal_;  // 3D: n at the previous step
+  std::array<Array, D> normal_, older_normal_;  // 3D: n at the previous step
   std::vector<std::int32_t> source_;
   std::array<Array, T> way_;
   double released_ = 0;
@@ -81,9 +87,9 @@ class ContactMemory {
   int first_vector() const { return normal_count_; }
   int first_scalar() const { return normal_count_ + (shear_ ? (2 + vectors_) * T : 0); }
   double* column(int k) { return columns_[static_cast<std::size_t>(k)].data(); }
-  void match(const Contacts<D>& contacts, double duration);
-  void turn(const Grains<D>& grains, const Contacts<D>& contacts, double duration);
-  void find_ways(const Contacts<D>& contacts, double duration);
+  template <int V>
+  void carry_vectors(const Grains<D>& grains, const Contacts<D>& contacts, double duration, Part range,
+                     Isa isa);
 };
 
 }  // namespace chute::soft

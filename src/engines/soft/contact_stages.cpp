@@ -7,6 +7,7 @@
 
 #include "core/compress.hpp"
 #include "engines/soft/contact_kernels.hpp"
+#include "engines/soft/memory_kernels.hpp"
 
 namespace chute::soft {
 namespace {
@@ -242,25 +243,35 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
   contacts.count = std::accumulate(found_.begin(), found_.end(), std::size_t{0});
   contacts.deep = 0;
   contacts.reserve(contacts.count);
-  const auto begin = [&](Part range) {
-    name_grains(pairs, range, contacts, team);
-    geometry(grains, range, contacts);
-  };
-  const auto laws = [&](Part range) {
-    normal_forces(range, contacts, duration);
-    shear_forces(range, contacts, duration);
-  };
   if (!memory_.needed()) {
     team.split(contacts.count, [&](Part range, std::size_t) {
-      begin(range);
-      laws(range);
+      name_grains(pairs, range, contacts, team);
+      geometry(grains, range, contacts);
+      normal_forces(range, contacts, duration);
+      shear_forces(range, contacts, duration);
     });
     return;
   }
-  team.split(contacts.count, [&](Part range, std::size_t) { begin(range); });
-  memory_.carry(grains, contacts, duration);
-  std::fill_n(contacts.stored.begin(), contacts.count, 0.0);
-  team.split(contacts.count, [&](Part range, std::size_t) { laws(range); });
+  team.split(contacts.count, [&](Part range, std::size_t) { name_grains(pairs, range, contacts, team); });
+  memory_.match(contacts, duration);
+  // In pieces whose numbers stay in a core's own cache from stage to stage: there are several hundred bytes a contact.
+  constexpr std::size_t piece = 512;
+  team.split(contacts.count, [&](Part all, std::size_t) {
+    for (std::size_t begin = all.begin; begin < all.end; begin += piece) {
+      const Part range{begin, std::min(all.end, begin + piece)};
+      geometry(grains, range, contacts);
+      remembered_forces(grains, range, contacts, duration);
+    }
+  });
+}
+
+template <int D>
+void ContactStages<D>::remembered_forces(const Grains<D>& grains, Part range, Contacts<D>& contacts,
+                                         double duration) {
+  memory_.carry(grains, contacts, duration, range, isa_);
+  std::fill(contacts.stored.data() + range.begin, contacts.stored.data() + range.end, 0.0);
+  normal_forces(range, contacts, duration);
+  shear_forces(range, contacts, duration);
 }
 
 template <int D>
@@ -292,7 +303,7 @@ void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double du
   std::visit(
       [&]<class Law>(const Law& law) {
         if constexpr (laws::ShearWithMemory<Law>)
-          remembering_shear<Law, D>(law, memory_, duration, range, contacts);
+          run_kernel(isa_, remembering<Law>(law, range, contacts, duration));
         else
           run_kernel(isa_,
                      ShearKernel<Law, turns<D>>{law, pointers(slip), contacts.normal_force.data(),
@@ -303,15 +314,39 @@ void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double du
 }
 
 template <int D>
+template <class Law>
+RememberingShearKernel<Law, turns<D>> ContactStages<D>::remembering(const Law& law, Part range,
+                                                                    Contacts<D>& contacts, double duration) {
+  RememberingShearKernel<Law, turns<D>> kernel{};
+  kernel.law = law, kernel.duration = duration, kernel.range = range, kernel.source = memory_.source();
+  kernel.normal_force = contacts.normal_force.data(), kernel.overlap = contacts.overlap.data();
+  kernel.m_eff = contacts.m_eff.data(), kernel.r_eff = contacts.r_eff.data();
+  kernel.stored_before = memory_.stored_column(), kernel.stored = contacts.stored.data();
+  kernel.loss = contacts.shear_loss.data();
+  for (int k = 0; k < turns<D>; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    kernel.way[axis] = memory_.way(k), kernel.slip[axis] = contacts.slip[axis].data();
+    kernel.previous_force[axis] = memory_.previous_force(k);
+    kernel.force[axis] = contacts.shear_force[axis].data();
+    for (int v = 0; v < Law::vectors; ++v)
+      kernel.vector[static_cast<std::size_t>(v)][axis] = memory_.vector_column(v, k);
+  }
+  for (int s = 0; s < Law::scalars; ++s)
+    kernel.scalar[static_cast<std::size_t>(s)] = memory_.scalar_column(s);
+  return kernel;
+}
+
+template <int D>
 void ContactStages<D>::evaluate_found(const Grains<D>& grains, Contacts<D>& contacts, double duration) {
   pad(contacts);
   const Part all{0, contacts.count};
-  if (memory_.needed()) {
-    memory_.carry(grains, contacts, duration);
-    std::fill_n(contacts.stored.begin(), contacts.count, 0.0);
+  if (!memory_.needed()) {
+    normal_forces(all, contacts, duration);
+    shear_forces(all, contacts, duration);
+    return;
   }
-  normal_forces(all, contacts, duration);
-  shear_forces(all, contacts, duration);
+  memory_.match(contacts, duration);
+  remembered_forces(grains, all, contacts, duration);
 }
 
 template <int D>

@@ -13,6 +13,9 @@
 
 namespace chute::soft {
 
+template <class Law, int T>
+struct RememberingShearKernel;
+
 /// The stages that turn places and velocities into forces, each a vectorised loop over arrays:
 /// find touching → geometry → memory → normal → shear → apply. A law is known inside its own stage only, so
 /// the compiled loops add up over the laws instead of multiplying. Where no law has a memory, that stage does
@@ -84,6 +87,10 @@ class ContactStages {
   void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
   void normal_forces(Part range, Contacts<D>& contacts, double duration);
   void shear_forces(Part range, Contacts<D>& contacts, double duration);
+  void remembered_forces(const Grains<D>& grains, Part range, Contacts<D>& contacts, double duration);
+  template <class Law>
+  RememberingShearKernel<Law, turns<D>> remembering(const Law& law, Part range, Contacts<D>& contacts,
+                                                    double duration);
 };
 
 }  // namespace chute::soft

@@ -97,10 +97,10 @@ void SoftEngine<D>::forces(double duration) {
   walls_.evaluate(grains_, time(), duration, stages_.deepest(), sums_);
 }
 
-/// What remembers grains by their ids from step to step does not let them be sorted.
+/// Collecting impacts remembers grains by their ids from step to step.
 template <int D>
 bool SoftEngine<D>::sorts() const {
-  return grains_.moving >= setup_.many.sort_from && !collecting_ && !stages_.memory().needed();
+  return grains_.moving >= setup_.many.sort_from && !collecting_;
 }
 
 /// Takes some of the steps on the way to `step`, from predicted places to predicted places, if it can. A block that must
@@ -111,8 +111,8 @@ bool SoftEngine<D>::advance_in_tiles(std::int64_t step) {
                          longest_pause = 4096;  // steps: a block's, and some hundred times that
   const auto& many = setup_.many;
   const bool pays = team_->size() > 1 || grains_.moving > 2 * many.grains_per_tile;
-  if (!many.tiles || !pays || walls_.any() || setup_.tilt || order_.empty() || step_ < no_tiles_until_ ||
-      !sorts())
+  if (!many.tiles || !pays || stages_.memory().needed() || walls_.any() || setup_.tilt || order_.empty() ||
+      step_ < no_tiles_until_ || !sorts())
     return false;
   const StepParts<D> parts{grains_, sums_, list_, stages_, integrator_, *team_, setup_.time_step};
   const std::int64_t unsorted = many.sort_every - step_ % many.sort_every;
@@ -150,6 +150,13 @@ void SoftEngine<D>::reorder(std::span<const std::int32_t> from) {
   chute::reorder(sums_.normal_loss, from);
   chute::reorder(sums_.shear_loss, from);
   chute::reorder(order_, from);
+  if (stages_.memory().needed()) {
+    std::vector<std::int32_t> place(from.size());
+    for (std::size_t k = 0; k < from.size(); ++k)
+      place[static_cast<std::size_t>(from[k])] = static_cast<std::int32_t>(k);
+    stages_.memory().reorder(place);
+    walls_.reorder(place);
+  }
   list_.forget();
 }
 
@@ -159,8 +166,19 @@ void SoftEngine<D>::back_to_ids() {
   if (order_.empty()) return;
   reorder(places());
   order_.clear();
+  look_again();
+}
+
+/// Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember is from the
+/// forces of the last step, at the predicted places; it must not see the corrected ones.
+template <int D>
+void SoftEngine<D>::look_again() {
+  const auto remembered = stages_.memory();
+  const auto remembered_of_walls = walls_.memories();
   sums_.clear({0, grains_.moving});
   forces(0);
+  stages_.memory() = remembered;
+  walls_.remember(remembered_of_walls);
 }
 
 /// What an overlap that is too deep comes from: a contact that a step passes over is not one that is too soft.
@@ -394,14 +412,7 @@ void SoftEngine<D>::restore(std::istream& in) {
       if (!field.changes) chute::reorder(column, order_);
     });
   list_.forget();
-  // Contacts and forces of this instant, for whoever looks before the next step. What the contacts remember
-  // is from the forces of the last step, at the predicted places; it must not see the corrected ones.
-  const auto remembered = stages_.memory();
-  const auto remembered_of_walls = walls_.memories();
-  sums_.clear({0, grains_.moving});
-  forces(0);
-  stages_.memory() = remembered;
-  walls_.remember(remembered_of_walls);
+  look_again();
 }
 
 template class SoftEngine<2>;

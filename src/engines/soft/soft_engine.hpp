@@ -106,6 +106,7 @@ class SoftEngine final : public Engine {
   void sort();
   void reorder(std::span<const std::int32_t> from);
   void back_to_ids();
+  void look_again();
   std::vector<std::int32_t> places() const;
   void tilt();
   std::string why_so_deep() const;

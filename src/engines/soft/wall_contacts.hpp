@@ -54,6 +54,10 @@ class WallContacts {
   /// What the contacts remember, for checkpoints.
   std::vector<ContactMemory<D>> memories() const;
   void remember(const std::vector<ContactMemory<D>>& memories);
+  /// As ContactMemory.
+  void reorder(std::span<const std::int32_t> place) {
+    for (auto& group : groups_) group.stages.memory().reorder(place);
+  }
   template <class Archive>
   void serialize(Archive& archive) {
     for (auto& group : groups_) archive(group.stages.memory());
