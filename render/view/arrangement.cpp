@@ -22,6 +22,15 @@ constexpr double kind_row = 1.2;  // a kind's name below another, at least
 constexpr double gravity_width = 4.4, gravity_height = 5.0;
 constexpr double plot_width = 17, plot_height = 10;  // at least, of a plot beside or below the scene
 constexpr double least_scene = 6;                    // its longer side, where a plot takes room
+constexpr double headline = 2.4;                     // the picture's title, with the space below it
+
+Arrangement moved_down(Arrangement places, double by) {
+  const plot::Point down{0, by};
+  for (plot::Point* point : {&places.title, &places.time, &places.key, &places.scale}) *point += down;
+  for (plot::Rect* rect : {&places.scene, &places.bar, &places.plot, &places.gravity})
+    rect->top += by, rect->bottom += by;
+  return places;
+}
 
 }  // namespace
 
@@ -102,10 +111,13 @@ Fit below(Arrangement places, double width, double height, double aspect, const 
 }  // namespace
 
 Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, const BarTexts& texts) {
-  const double width = style.width, height = style.height;
   Arrangement places;
   // readable at 400 x 300, quiet at 1920 x 1080
-  places.em = std::max(12.0, 0.0225 * std::sqrt(width * height));
+  places.em = style.font_size > 0
+                  ? style.font_size
+                  : std::max(12.0, 0.0225 * std::sqrt(static_cast<double>(style.width) * style.height));
+  const double head = style.title.empty() ? 0 : headline * places.em;
+  const double width = style.width, height = style.height - head;
   if (!style.furniture) {
     const double edge = 0.02 * std::min(width, height);
     const double w = std::min(width - 2 * edge, (height - 2 * edge) * aspect), h = w / aspect;
@@ -113,7 +125,7 @@ Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect
     return places;
   }
   places.has_bar = !survey.field.is_none();
-  places.has_time = survey.has_times;
+  places.has_time = survey.has_times && style.time != "none";
   places.has_gravity = !survey.gravity.isZero(0);
   places.has_scale = true;
   places.has_key = (style.arrows && survey.speed > 0) || (style.chains && survey.force > 0);
@@ -146,6 +158,8 @@ Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect
   // beside the time, if there is room
   places.has_key =
       places.has_key && places.scene.width() > (style.arrows && style.chains ? 26 : 17) * places.em;
+  places = moved_down(places, head);
+  places.headline = {width / 2, (margin + 0.8) * places.em};
   return places;
 }
 

@@ -11,15 +11,16 @@ struct Arrangement {
   plot::Rect scene;  ///< the grains
   bool has_bar = false, has_gravity = false, has_scale = false, has_time = false, has_key = false,
        has_plot = false;
-  double foot = 0;          ///< room below the scene, em
-  bool upright_bar = true;  ///< colour bar beside the scene; else below it
-  plot::Rect bar;           ///< the colours themselves
-  plot::Point title{0, 0};  ///< left end of the colour bar's title
-  plot::Point time{0, 0};   ///< left end of the time's line
-  plot::Point key{0, 0};    ///< right end of the line that explains the arrows, above the scene
-  plot::Point scale{0, 0};  ///< left end of the scale bar
-  plot::Rect plot;          ///< the plot of a time series, its texts included
-  plot::Rect gravity;       ///< the arrows that show where gravity points
+  double foot = 0;             ///< room below the scene, em
+  bool upright_bar = true;     ///< colour bar beside the scene; else below it
+  plot::Rect bar;              ///< the colours themselves
+  plot::Point title{0, 0};     ///< left end of the colour bar's title
+  plot::Point time{0, 0};      ///< left end of the time's line
+  plot::Point key{0, 0};       ///< right end of the line that explains the arrows, above the scene
+  plot::Point scale{0, 0};     ///< left end of the scale bar
+  plot::Point headline{0, 0};  ///< middle of the picture's title
+  plot::Rect plot;             ///< the plot of a time series, its texts included
+  plot::Rect gravity;          ///< the arrows that show where gravity points
 };
 
 /// Widths of the colour bar's texts, in em.

@@ -3,10 +3,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <regex>
 
 #include "common/error.hpp"
+#include "plot/mathtext.hpp"
 
 namespace chute::view {
+
+std::optional<TimePlace> time_place(const std::string& text) {
+  static const std::regex place(R"(\{(?::\.([0-9])f)?\})");
+  const std::sregex_iterator first(text.begin(), text.end(), place), none;
+  if (first == none || std::next(first) != none) return {};
+  TimePlace found{static_cast<std::size_t>(first->position()), static_cast<std::size_t>(first->length()), {}};
+  if ((*first)[1].matched) found.decimals = std::stoi((*first)[1].str());
+  return found;
+}
 
 void FrameStyle::check() const {
   const auto require = [](bool holds, const std::string& what) {
@@ -32,6 +43,17 @@ void FrameStyle::check() const {
   for (const Cut& cut : cuts)
     require(cut.axis >= 0 && cut.axis < 3 && std::isfinite(cut.value),
             "cut: needs a finite place on x, y or z");
+  require(font_size == 0 || (font_size >= 6 && font_size <= 200),
+          fmt::format("font size {}: must be in [6, 200] pixels", font_size));
+  require(std::isfinite(time_scale) && time_scale > 0, fmt::format("time scale {}: must be > 0", time_scale));
+  require(time.empty() || time == "none" || time_place(time),
+          fmt::format(
+              "time \"{}\": where the time stands is {{}} or, with digits behind the point, {{:.2f}}, once",
+              time));
+  // What TeX does not know is told before anything is drawn.
+  if (!title.empty()) plot::set_text(title, 10);
+  if (const auto place = time_place(time))
+    plot::set_text(std::string(time).replace(place->at, place->length, "0"), 10);
   require(trail >= 0 && trail <= 1000, fmt::format("trail of {} frames: must be in [0, 1000]", trail));
 }
 
@@ -47,7 +69,8 @@ std::string FrameStyle::describe() const {
     text += camera.follow->id ? fmt::format(" follow={}", *camera.follow->id) : std::string(" follow=mean");
   if (up) text += fmt::format(" up={}:{}:{}", up->x(), up->y(), up->z());
   for (const auto& name : species) text += fmt::format(" kind={}:{}", name.size(), name);
-  if (camera.all) text += " all";
+  for (const auto* words : {&title, &time}) text += fmt::format(" words={}:{}", words->size(), *words);
+  text += fmt::format(" time_scale={} font={}", time_scale, font_size);
   for (const Cut& cut : cuts) text += fmt::format(" cut={}{}{}", cut.axis, cut.above ? '>' : '<', cut.value);
   return text + fmt::format(
                     " eye={}:{}:{} tilt={:d} arrows={:d} chains={:d} copies={:d} impacts={:d} occlusion={:d} "

@@ -62,8 +62,14 @@ struct FrameStyle {
   bool box = false;                  ///< 3D: edges of the periodic box, or of the box of all grains
   bool spin = true;                  ///< marks that turn with the grains
   bool furniture = true;             ///< colour bar, time, scale bar, gravity
-  int trail = 0;                     ///< earlier frames whose positions are drawn as a trail
-  std::vector<Cut> cuts;             ///< grains whose centres lie in one of them are left out
+  std::string title;                 ///< above everything, in the plots' TeX; empty: none
+  /// The line that tells the time, in the plots' TeX, with one `{}` or `{:.2f}` (digits behind the point) where the time
+  /// stands, times time_scale; `none`: no such line. Empty: t with the unit of the data.
+  std::string time;
+  double time_scale = 1;
+  double font_size = 0;   ///< pixels, of all type; 0: by the size of the picture
+  int trail = 0;          ///< earlier frames whose positions are drawn as a trail
+  std::vector<Cut> cuts;  ///< grains whose centres lie in one of them are left out
   Camera camera;
 
   /// InputError if a value is out of bounds (sizes from 64 to 8192, range LOW < HIGH …).
@@ -71,6 +77,14 @@ struct FrameStyle {
   /// All of the above as text: part of what a frame is drawn from.
   std::string describe() const;
 };
+
+/// Where in a FrameStyle::time the number stands.
+struct TimePlace {
+  std::size_t at, length;
+  std::optional<int> decimals;  ///< none: as many as tell the frames apart
+};
+/// Nothing if there is not exactly one place.
+std::optional<TimePlace> time_place(const std::string& text);
 
 /// Ground and inks that go with a background.
 struct Palette {

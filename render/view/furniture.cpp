@@ -84,7 +84,17 @@ constexpr double kind_line = 1.5;                 // em: from a row of patches t
 
 }  // namespace
 
-std::string time_text(const Survey& survey, double time) {
+std::string time_text(const FrameStyle& style, const Survey& survey, double time) {
+  time *= style.time_scale;
+  if (const auto place = time_place(style.time)) {
+    // A larger scale needs fewer digits to tell the frames apart.
+    const int shift = static_cast<int>(std::floor(std::log10(style.time_scale) + 1e-9));
+    auto text = style.time;
+    text.replace(place->at, place->length,
+                 fmt::format("{:.{}f}", time,
+                             place->decimals.value_or(std::clamp(survey.time_decimals - shift, 0, 9))));
+    return text;
+  }
   const auto number = fmt::format("{:.{}f}", time, survey.time_decimals);
   if (!survey.clock.empty()) return fmt::format("{} {}", number, survey.clock);
   if (survey.units == "reduced") return fmt::format("$t = {}\\,\\sqrt{{d/g}}$", number);
@@ -344,9 +354,22 @@ void Furniture::draw_gravity(DisplayList& list, const Directions& directions) co
   plot::draw_text(list, angle, {box.left, box.bottom - 0.25 * em}, ink());
 }
 
+/// Larger than the rest, and smaller again where it would be wider than the picture.
+void Furniture::draw_headline(DisplayList& list) const {
+  constexpr double larger = 1.25, widest = 0.96;
+  double size = larger * places_.em;
+  auto text = plot::set_text(style_.title, size);
+  if (text.width > widest * style_.width) {
+    size *= widest * style_.width / text.width;
+    text = plot::set_text(style_.title, size);
+  }
+  plot::draw_text(list, text, places_.headline - Point{text.width / 2, 0}, ink());
+}
+
 void Furniture::stand(const ScaleBar& scale, const Directions& directions, double arrow_pixels,
                       double chain_pixels) {
   auto list = blank(style_.width, style_.height);
+  if (!style_.title.empty()) draw_headline(list);
   if (places_.has_bar) survey_.categories.empty() ? draw_bar(list) : draw_kinds(list);
   if (places_.has_scale) draw_scale(list, kept_inside(scale));
   if (places_.has_key) draw_key(list, arrow_pixels, chain_pixels);
@@ -360,7 +383,7 @@ void Furniture::put_on(image::Image& frame, double time) const {
   lay_over(frame, standing_);
   if (plot_) plot_->put_on(frame, time);
   if (!places_.has_time) return;
-  const auto text = plot::set_text(time_text(survey_, time), places_.em);
+  const auto text = plot::set_text(time_text(style_, survey_, time), places_.em);
   const double above = std::ceil(1.5 * places_.em), below = std::ceil(0.6 * places_.em);
   const Point whole{std::floor(places_.time.x()), std::floor(places_.time.y())};
   auto list = blank(std::ceil(text.width + places_.em), above + below);

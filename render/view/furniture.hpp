@@ -53,6 +53,7 @@ class Furniture {
   std::optional<SeriesPlot> plot_;
   image::Image standing_;
 
+  void draw_headline(plot::DisplayList& list) const;
   void draw_bar(plot::DisplayList& list) const;
   void draw_kinds(plot::DisplayList& list) const;
   /// Text of each kind, and of what has no colour of its own.
@@ -68,8 +69,8 @@ class Furniture {
   plot::Color quiet() const { return {palette_.quiet.r, palette_.quiet.g, palette_.quiet.b, 1}; }
 };
 
-/// "t = 12.50 √(d/g)", "t = 0.125 s": the time label in the plots' TeX.
-std::string time_text(const Survey& survey, double time);
+/// "t = 12.50 √(d/g)", "t = 0.125 s", or as the style has it: the time label in the plots' TeX.
+std::string time_text(const FrameStyle& style, const Survey& survey, double time);
 
 /// A length of 1, 2 or 5 times a power of ten, at most `longest`; and its label with unit.
 double plain_length(double longest);

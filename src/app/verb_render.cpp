@@ -25,6 +25,8 @@ namespace {
 
 struct RenderArguments {
   std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series, up;
+  std::string title, time;
+  double time_scale = 1, font_size = 0;
   std::string radius, diameter, velocity, spin, orientation, type, id;
   std::vector<std::string> species;
   std::vector<std::string> plot;
@@ -65,10 +67,6 @@ void read_camera(const std::string& text, view::Camera& camera) {
     return;
   }
   if (read_follow(text, camera)) return;
-  if (text == "all") {
-    camera.all = true;
-    return;
-  }
   constexpr const char* expected =
       "X0:X1:Y0:Y1 (the part of a plane that is shown), AZIMUTH:ELEVATION[:ZOOM] (degrees, in space), "
       "all, follow[:ID|mean], or one of the first two and the last with a comma between";
@@ -171,10 +169,13 @@ view::RenderJob job_of(const RenderArguments& a) {
   meanings.velocity = a.velocity, meanings.spin = a.spin, meanings.orientation = a.orientation;
   meanings.type = a.type, meanings.id = a.id;
   style.species = a.species;
+  style.title = a.title, style.time = a.time, style.time_scale = a.time_scale, style.font_size = a.font_size;
   if (!a.up.empty()) style.up = read_up(a.up);
   job.speed = a.speed;
   if (a.bare && !a.plot.empty())
     throw InputError("--bare draws the grains alone, --plot a curve beside them");
+  if (a.bare && (!a.title.empty() || !a.time.empty()))
+    throw InputError("--bare draws the grains alone, without --title and --time");
   if (!a.series.empty() && a.plot.empty()) throw InputError("--series: say with --plot which of its columns");
   job.plot = a.plot, job.series = a.series;
   std::error_code error;
@@ -283,6 +284,16 @@ void add_render(CLI::App& app) {
   verb->add_option(
       "--up", a->up,
       "which way is up, x, y, z, -x …, or X:Y:Z; default against gravity, else across the thinnest spread of grains in space");
+  verb->add_option("--title", a->title,
+                   "a line above the picture, in the TeX of figures: \"$\\theta = 18\\degree$\"");
+  verb->add_option(
+      "--time", a->time,
+      "the line that tells the time, such as \"t = {:.1f} ms\", in the TeX of figures: {} or {:.1f} "
+      "is where it stands; none for no such line");
+  verb->add_option("--time-scale", a->time_scale, "what the time is multiplied by there: 1000 for ms")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--font-size", a->font_size, "pixels, of all type; default by the size of the picture")
+      ->check(CLI::Range(6.0, 200.0));
   verb->add_option("--background", a->background, "white, dark or transparent")->capture_default_str();
   verb->add_flag("--tilt", a->tilt, "turn the picture so that gravity points down");
   verb->add_flag("--arrows", a->arrows, "velocity arrows");

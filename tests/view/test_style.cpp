@@ -62,6 +62,10 @@ TEST_CASE("Every part of a style is part of what a frame is drawn from") {
   differs([](auto& s) { s.camera.window = {0, 1, 0, 1}; });
   differs([](auto& s) { s.camera.azimuth = 1; });
   differs([](auto& s) { s.camera.all = true; });
+  differs([](auto& s) { s.title = "a"; });
+  differs([](auto& s) { s.time = "none"; });
+  differs([](auto& s) { s.time_scale = 1000; });
+  differs([](auto& s) { s.font_size = 20; });
   for (bool view::FrameStyle::*flag :
        {&view::FrameStyle::tilt, &view::FrameStyle::arrows, &view::FrameStyle::chains,
         &view::FrameStyle::copies, &view::FrameStyle::occlusion, &view::FrameStyle::spin,
@@ -79,6 +83,7 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
   const double aspect = GENERATE(0.3, 0.8, 1.0, 1.6, 2.5, 5.0, 12.0);
   survey.dimensions = GENERATE(2, 3);
   style.arrows = GENERATE(false, true);
+  if (GENERATE(false, true)) style.title = "A flow";
   style.width = width, style.height = height;
   if (GENERATE(false, true)) survey.series.columns = {{"v_x", {}}};
   const double title = 2.6, labels = 1.8;
@@ -107,6 +112,8 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
     boxes.push_back({places.scale.x(), places.scale.y() - 0.4 * em,
                      places.scale.x() + view::longest_scale(places.scene, em) + 2.5 * em,
                      places.scale.y() + 0.4 * em});
+  if (!style.title.empty())
+    boxes.push_back({0, places.headline.y() - 1.1 * em, double(width), places.headline.y() + 0.4 * em});
   REQUIRE(places.has_plot == !survey.series.empty());
   if (places.has_plot) boxes.push_back(places.plot);
   if (places.has_key)
@@ -126,9 +133,24 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
 TEST_CASE("Labels: time, lengths, fields") {
   view::Survey survey;
   survey.units = "reduced", survey.time_decimals = 2;
-  CHECK(view::time_text(survey, 12.5) == "$t = 12.50\\,\\sqrt{d/g}$");
+  CHECK(view::time_text({}, survey, 12.5) == "$t = 12.50\\,\\sqrt{d/g}$");
   survey.units = "SI";
-  CHECK(view::time_text(survey, 12.5) == "$t = 12.50\\,\\mathrm{s}$");
+  CHECK(view::time_text({}, survey, 12.5) == "$t = 12.50\\,\\mathrm{s}$");
+  view::FrameStyle own;
+  own.time = "$t = {}\\,\\mathrm{ms}$", own.time_scale = 1000;
+  CHECK(view::time_text(own, survey, 0.0125) ==
+        "$t = 12\\,\\mathrm{ms}$");  // a scale of 1000 spares three digits
+  own.time = "after {:.1f} ms";
+  CHECK(view::time_text(own, survey, 0.0125) == "after 12.5 ms");
+  CHECK_NOTHROW(own.check());
+  own.time = "none";
+  CHECK_NOTHROW(own.check());
+  for (const char* wrong : {"t", "{} {}", "{:d}", "{:.2}", "{0}"}) {
+    own.time = wrong;
+    CHECK_THROWS_WITH(own.check(), Contains("where the time stands"));
+  }
+  own.time.clear(), own.title = "$\\thta$";
+  CHECK_THROWS_AS(own.check(), InputError);
   CHECK(view::plain_length(7) == 5);
   CHECK(view::plain_length(0.03) == Approx(0.02));
   CHECK(view::length_text(5, "reduced") == "$5\\,d$");

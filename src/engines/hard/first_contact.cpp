@@ -5,12 +5,9 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace chute::hard {
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The root of a function that changes sign once between low and high, to the last bits; the end at which the
 /// function still has the sign it has at `low`.

@@ -6,6 +6,10 @@
 
 namespace chute::hard {
 
+/// The time of what does not happen.
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
+
 /// How two spheres move about each other: the way from the second's centre to the first's is r(t) = d + v t +
 /// ½ a t². Two grains in free flight have a = 0, (2.18); a grain in flight and a fixed one have a = g, (2.21)
 /// with ½ g t².
@@ -42,7 +46,6 @@ double first_contact(const Approach<D>& approach);
 /// the nearest pass, reach² − |d − (d·v/v²) v|², which does not lose its digits when the grains are far apart.
 template <int D>
 double first_contact_linear(const Approach<D>& a) {
-  constexpr double never = std::numeric_limits<double>::infinity();
   const double closing = dot(a.d, a.v);
   if (!(closing < 0)) return never;
   const double c = a.gap(0);

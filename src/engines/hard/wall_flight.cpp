@@ -8,8 +8,6 @@
 namespace chute::hard {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
 /// A contact is found when the height above touching is less than this part of the radius: some hundred times what
 /// rounding leaves of places within a thousand radii.
 constexpr double close_enough = 1e-13;
