@@ -21,6 +21,8 @@ constexpr double longest_bar = 20;
 constexpr double kind_row = 1.2;  // a kind's name below another, at least
 constexpr double gravity_width = 4.4, gravity_height = 5.0;
 constexpr double plot_width = 17, plot_height = 10;  // at least, of a plot beside or below the scene
+constexpr double time_width = 6.5;                   // of the line of time, with the space after it
+constexpr double scale_label = 3;                    // beside the scale bar
 constexpr double least_scene = 6;                    // its longer side, where a plot takes room
 constexpr double headline = 2.4;                     // the picture's title, with the space below it
 
@@ -67,8 +69,13 @@ Fit beside(Arrangement places, double width, double height, double aspect, const
   const double least =
       em * ((places.has_bar ? std::max(8.5, 2 + kinds) : 0) + (places.has_gravity ? gravity_height : 0));
   const double extra = std::max(0.0, least - h) / 2;
-  const double panel_top = std::max(margin * em, above - extra);
-  const double panel_bottom = std::min(height - margin * em, above + h + extra);
+  // a narrow scene's line of time reaches over the panel, and its scale bar under it
+  const bool time_above = places.has_time && w + space < time_width * em;
+  const double panel_top = std::max(time_above ? places.time.y() + 0.3 * em : margin * em, above - extra);
+  const bool scale_below =
+      places.foot >= foot && w + space < longest_scale(places.scene, em) + scale_label * em;
+  const double panel_bottom =
+      std::min(scale_below ? places.scale.y() - 0.5 * em : height - margin * em, above + h + extra);
   places.gravity = {x, panel_bottom - gravity_height * em, x + gravity_width * em, panel_bottom};
   places.title = {x, panel_top + 0.8 * em};
   const double bar_top = panel_top + 1.75 * em;

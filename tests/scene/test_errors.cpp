@@ -52,9 +52,9 @@ TEST_CASE("a wrong type says what was written and what is wanted") {
 }
 
 TEST_CASE("a run of more steps than can be counted is refused") {
-  const auto said = set("run.duration=1e300");
+  const auto said = set("run.duration=1e50");
   INFO(said);
-  CHECK(said.find("run.duration: 1e+300 takes ") != said.npos);
+  CHECK(said.find("run.duration: 1e+50 takes ") != said.npos);
   CHECK(said.find("more than 1e+15") != said.npos);
   CHECK(set("run.duration=1e6") == "accepted");
   CHECK_THAT(set("run.duration=1e9"), Catch::Contains("output.frames.every: 0.5 makes 2e+09 of them"));

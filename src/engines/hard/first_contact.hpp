@@ -9,7 +9,6 @@ namespace chute::hard {
 /// The time of what does not happen.
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-
 /// How two spheres move about each other: the way from the second's centre to the first's is r(t) = d + v t +
 /// ½ a t². Two grains in free flight have a = 0, (2.18); a grain in flight and a fixed one have a = g, (2.21)
 /// with ½ g t².
