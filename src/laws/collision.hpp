@@ -17,7 +17,8 @@ struct Collider {
 /// Slip of the surfaces of a contact (1.14), (2.7) in space: v_j − v_i, less its part along n, and the spins.
 /// (2.7) is used with the sum of the spins; the printed difference contradicts (1.14).
 template <int D>
-Vec<D> surface_slip(const Vec<D>& n, const Collider<D>& i, const Collider<D>& j) {
+[[gnu::always_inline]] inline Vec<D> surface_slip(const Vec<D>& n, const Collider<D>& i,
+                                                  const Collider<D>& j) {
   const Vec<D> dv = j.velocity - i.velocity;
   Vec<D> slip = dv - dot(dv, n) * n;
   if constexpr (D == 2) {
@@ -31,7 +32,8 @@ Vec<D> surface_slip(const Vec<D>& n, const Collider<D>& i, const Collider<D>& j)
 /// Both grains after the impulse J on j, −J on i, at the point of contact: (2.22) and (2.23), corrected: J
 /// acts on j, and I/R Δω = −n × J for both grains.
 template <int D>
-void apply_impulse(const Vec<D>& n, const Vec<D>& impulse, Collider<D>& i, Collider<D>& j) {
+[[gnu::always_inline]] inline void apply_impulse(const Vec<D>& n, const Vec<D>& impulse, Collider<D>& i,
+                                                 Collider<D>& j) {
   i.velocity = i.velocity - i.inverse_mass * impulse;
   j.velocity = j.velocity + j.inverse_mass * impulse;
   Vec<turns<D>> turn;  // n × J

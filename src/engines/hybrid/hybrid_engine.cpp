@@ -201,6 +201,7 @@ template <int D>
 void HybridEngine<D>::push_apart(double end) {
   const double part = 1 - std::pow(1 - setup_.relaxation, 1.0 / passes);
   deepest_ = 0;
+  find_overlapping();
   for (int pass = 0; pass < passes; ++pass) {
     const auto push = [&](double overlap) {
       if (pass == 0) deepest_ = std::max(deepest_, overlap);
@@ -211,10 +212,23 @@ void HybridEngine<D>::push_apart(double end) {
   }
 }
 
+/// Who may overlap now, or after others have been pushed.
+template <int D>
+void HybridEngine<D>::find_overlapping() {
+  constexpr double near = 1e-2;  // of d
+  overlapping_.clear();
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto i = static_cast<std::size_t>(pairs_.i[p]), j = static_cast<std::size_t>(pairs_.j[p]);
+    const double reach = flights_[i].radius + flights_[j].radius + near * setup_.diameter;
+    const Vec<D> way = setup_.domain.way(flights_[i].place, flights_[j].place);
+    if (dot(way, way) < reach * reach) overlapping_.push_back(p);
+  }
+}
+
 template <int D>
 template <class Push>
 void HybridEngine<D>::push_pairs_apart(const Push& push) {
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+  for (const auto p : overlapping_) {
     const auto i = static_cast<std::size_t>(pairs_.i[p]), j = static_cast<std::size_t>(pairs_.j[p]);
     const double reach = flights_[i].radius + flights_[j].radius;
     const Vec<D> way = setup_.domain.way(flights_[i].place, flights_[j].place);

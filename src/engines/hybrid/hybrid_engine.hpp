@@ -70,6 +70,7 @@ class HybridEngine final : public Engine {
   std::vector<Impact> impacts_;
   std::vector<Collision> collisions_;
   search::PairNames pairs_;
+  std::vector<std::size_t> overlapping_;  // of these
   std::unique_ptr<Team> team_;
 
   bool is_wall(std::size_t j) const { return j >= grains_.size(); }
@@ -83,6 +84,7 @@ class HybridEngine final : public Engine {
   void account(const Hit<D>& hit);
   void note_touch(const Hit<D>& hit, const Vec<D>& n, const hard::Meeting* train);
   void push_apart(double end);
+  void find_overlapping();
   template <class Push>
   void push_pairs_apart(const Push& push);
   template <class Push>

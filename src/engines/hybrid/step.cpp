@@ -129,12 +129,12 @@ double Step<D>::contact(const Partners& p) const {
   const auto& b = bodies_[p.j];
   const double from = std::max(a.time, b.time), left = length_ - from;  // of a fixed grain it stays 0
   const Relative now = relative(p, from);
-  const double reach = a.radius + b.radius, gap = dot(now.way, now.way) - reach * reach;
-  const double closing = dot(now.way, now.velocity);
+  const double reach = a.radius + b.radius, closing = dot(now.way, now.velocity);
   if (p.presses) {
     const double off = settled * given_ * reach;
     return closing < -off || (closing > off && p.pressed > 0) ? from : never;
   }
+  const double gap = dot(now.way, now.way) - reach * reach;
   if (gap <= 0) return closing < -negligible_ * reach ? from : never;
   // Nearly all looks end here: the square of the distance falls within a time T by at most 2 T |d·v| + T² |d·a|, the
   // first only if they approach.
@@ -271,7 +271,8 @@ void Step<D>::lean() {
     laws::Collider<D> i{a.velocity, a.spin, a.radius, a.inverse_mass, a.inverse_inertia};
     laws::Collider<D> j{i.velocity + before.velocity, b.spin, b.radius, b.inverse_mass, b.inverse_inertia};
     const Vec<D> n = (1 / distance) * before.way;
-    press_to(p, 0, before, n, last.normal, last.shear - dot(last.shear, n) * n, i, j);
+    press_to(p, 0, before, {n, laws::surface_slip(n, i, j), dot(before.velocity, n)}, last.normal,
+             last.shear - dot(last.shear, n) * n, i, j);
   }
 }
 
@@ -331,16 +332,15 @@ void Step<D>::press(Partners& p, double s, const Relative& before, const Vec<D>&
   const double shear = norm(sheared), most = setup_.contact.tangential.friction * pressed;
   if (shear > most) sheared = (most / shear) * sheared;
   ++outcome_.collisions;
-  press_to(p, s, before, n, pressed, sheared, i, j);
+  press_to(p, s, before, {n, slip, v_n}, pressed, sheared, i, j);
 }
 
 /// Makes the impulses of the step these in all.
 template <int D>
-void Step<D>::press_to(Partners& p, double s, const Relative& before, const Vec<D>& n, double pressed,
+void Step<D>::press_to(Partners& p, double s, const Relative& before, const Touch& touch, double pressed,
                        const Vec<D>& sheared, laws::Collider<D>& i, laws::Collider<D>& j) {
   p.presses = true;
-  const double v_n = dot(before.velocity, n);
-  const Vec<D> slip = laws::surface_slip(n, i, j);
+  const auto& [n, slip, v_n] = touch;
   const Vec<D> sideways = sheared - p.sheared, impulse = (pressed - p.pressed) * n + sideways;
   laws::apply_impulse(n, impulse, i, j);
   const double mean_v_n = 0.5 * (v_n + dot(j.velocity - i.velocity, n));
@@ -358,7 +358,7 @@ void Step<D>::pass(Partners& p, double s, const Relative& before, const Vec<D>& 
   const auto go_on = [&](std::size_t k, const Vec<D>& impulse, const Vec<turns<D>>& spin) {
     auto& body = bodies_[k];
     auto& f = (*flights_)[k];
-    f.orientation = turned<D>(f.orientation, body.spin, s - body.time);
+    if (s > body.time) f.orientation = turned<D>(f.orientation, body.spin, s - body.time);
     const Vec<D> gained = body.inverse_mass * impulse;
     body.place = body.place - s * gained, body.velocity = body.velocity + gained;
     body.spin = spin, body.time = s;

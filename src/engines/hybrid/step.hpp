@@ -135,6 +135,11 @@ class Step {
   struct Relative {
     Vec<D> way, velocity;
   };
+  /// How their surfaces move against each other there.
+  struct Touch {
+    Vec<D> n, slip;
+    double v_n;
+  };
 
   const HybridSetup<D>& setup_;
   const Grains<D>& grains_;
@@ -184,13 +189,14 @@ class Step {
   bool collide(Partners& p, double s);
   void lean();
   void remember();
-  void press(Partners& p, double s, const Relative& before, const Vec<D>& n, laws::Collider<D>& i,
-             laws::Collider<D>& j);
-  void press_to(Partners& p, double s, const Relative& before, const Vec<D>& n, double pressed,
-                const Vec<D>& sheared, laws::Collider<D>& i, laws::Collider<D>& j);
-  void pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse, const Vec<turns<D>>& spin_i,
-            const Vec<turns<D>>& spin_j);
-  void note(Partners& p, double s, const Relative& before, const Vec<D>& impulse);
+  [[gnu::always_inline]] void press(Partners& p, double s, const Relative& before, const Vec<D>& n,
+                                    laws::Collider<D>& i, laws::Collider<D>& j);
+  [[gnu::always_inline]] void press_to(Partners& p, double s, const Relative& before, const Touch& touch,
+                                       double pressed, const Vec<D>& sheared, laws::Collider<D>& i,
+                                       laws::Collider<D>& j);
+  [[gnu::always_inline]] void pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse,
+                                   const Vec<turns<D>>& spin_i, const Vec<turns<D>>& spin_j);
+  [[gnu::always_inline]] void note(Partners& p, double s, const Relative& before, const Vec<D>& impulse);
 };
 
 }  // namespace chute::hybrid
