@@ -30,7 +30,9 @@ struct SeriesLook {
   Fill fill = Fill::own;
   bool hollow = false;  ///< whatever the marker: points that are not vouched for
 
-  MarkerShape shape(double size) const { return marker_shape(marker, size, hollow ? Fill::hollow : fill); }
+  MarkerShape shape(double diameter) const {
+    return marker_shape(marker, diameter, hollow ? Fill::hollow : fill);
+  }
 
   std::optional<double> width{}, size{};  ///< of its line and its markers, where not the style's
   /// The style as this series has it.

@@ -85,7 +85,7 @@ constexpr Push first{0.8, 0.02}, second{0.2, 0.04};
 PushedCylinder cylinder(char law) {
   PushedCylinder set_up;
   const auto make = [&](double mu) -> laws::Shear {
-    if (law == 'a') return laws::RegularisedCoulomb{1000, mu, laws::MassScaling::none};
+    if (law == 'a') return laws::RegularisedCoulomb{1000, mu, laws::MassScaling::none, {}};
     return laws::CundallStrack{{stiffness, 0, 0, 0}, {mu, law == 'c'}};
   };
   set_up.block = make(block_friction);

@@ -3,10 +3,6 @@
 #include <numbers>
 
 namespace chute::measure {
-namespace {
-constexpr double pi = std::numbers::pi;
-}
-
 ImpactHistograms::ImpactHistograms(const HistogramBins& bins, const Window& window)
     : bins_(bins), blocks_(window) {}
 
@@ -18,13 +14,14 @@ void ImpactHistograms::add(std::span<const Impact> impacts, std::size_t moving) 
     sums.resize(bins_.angles + bins_.velocities + 1);
     const auto kind =
         static_cast<std::size_t>(is_wall(impact.bead) || impact.bead >= static_cast<std::int64_t>(moving));
-    const double speed = std::abs(impact.v_n), angle = impact.gamma - pi * std::floor(impact.gamma / pi);
+    const double speed = std::abs(impact.v_n),
+                 angle = impact.gamma - std::numbers::pi * std::floor(impact.gamma / std::numbers::pi);
     const auto count = [&](std::size_t bin) {
       sums[bin].count[kind] += 1;
       sums[bin].v_n[kind] += speed;
     };
-    count(
-        std::min(bins_.angles - 1, static_cast<std::size_t>(angle / pi * static_cast<double>(bins_.angles))));
+    count(std::min(bins_.angles - 1,
+                   static_cast<std::size_t>(angle / std::numbers::pi * static_cast<double>(bins_.angles))));
     if (speed < bins_.fastest)
       count(bins_.angles +
             static_cast<std::size_t>(speed / bins_.fastest * static_cast<double>(bins_.velocities)));
@@ -47,7 +44,7 @@ std::vector<HistogramRow> ImpactHistograms::result(double start) const {
   const auto add = [&](std::string_view pair, auto&& kinds, std::string_view quantity) {
     const bool velocity = quantity == "v_n", mean = quantity == "v_n of gamma";
     const std::size_t first = velocity ? bins_.angles : 0, count = velocity ? bins_.velocities : bins_.angles;
-    const double width = (velocity ? bins_.fastest : pi) / static_cast<double>(count);
+    const double width = (velocity ? bins_.fastest : std::numbers::pi) / static_cast<double>(count);
     for (std::size_t b = 0; b < count; ++b) {
       std::vector<Blocks<Share>::Part> shares;
       for (const auto& stretch : stretches) {

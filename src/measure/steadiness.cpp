@@ -10,7 +10,8 @@ namespace chute::measure {
 namespace {
 
 constexpr std::size_t blocks = 64, stretches = 12;
-constexpr std::array<std::string_view, 5> names{"stopped", "steady", "accelerating", "runaway", "unsettled"};
+constexpr std::array<std::string_view, 5> verdict_names{"stopped", "steady", "accelerating", "runaway",
+                                                        "unsettled"};
 
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -143,12 +144,12 @@ bool accelerates(std::span<const double> v) {
 
 }  // namespace
 
-std::string_view name(Verdict verdict) { return names[static_cast<std::size_t>(verdict)]; }
+std::string_view name(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
 
 std::optional<Verdict> verdict_named(std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<Verdict>(found - names.begin());
+  const auto found = std::find(verdict_names.begin(), verdict_names.end(), name);
+  if (found == verdict_names.end()) return {};
+  return static_cast<Verdict>(found - verdict_names.begin());
 }
 
 namespace {
@@ -215,7 +216,7 @@ Flow judge_flow(const FlowSeries& series, const FlowScales& scales) {
 }
 
 Flow joined(std::span<const Flow> starts) {
-  std::array<std::size_t, names.size()> count{};
+  std::array<std::size_t, verdict_names.size()> count{};
   for (const auto& start : starts) ++count[static_cast<std::size_t>(start.verdict)];
   const auto most = static_cast<Verdict>(std::max_element(count.begin(), count.end()) - count.begin());
   Flow flow{most, -INFINITY, {}, {}, {}};

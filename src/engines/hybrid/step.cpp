@@ -355,11 +355,11 @@ template <int D>
 void Step<D>::pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse,
                    const Vec<turns<D>>& spin_i, const Vec<turns<D>>& spin_j) {
   note(p, s, before, impulse);
-  const auto go_on = [&](std::size_t k, const Vec<D>& impulse, const Vec<turns<D>>& spin) {
+  const auto go_on = [&](std::size_t k, const Vec<D>& gets, const Vec<turns<D>>& spin) {
     auto& body = bodies_[k];
     auto& f = (*flights_)[k];
     if (s > body.time) f.orientation = turned<D>(f.orientation, body.spin, s - body.time);
-    const Vec<D> gained = body.inverse_mass * impulse;
+    const Vec<D> gained = body.inverse_mass * gets;
     body.place = body.place - s * gained, body.velocity = body.velocity + gained;
     body.spin = spin, body.time = s;
     ++body.collisions;
