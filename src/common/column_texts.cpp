@@ -100,6 +100,14 @@ std::vector<TableText> all_tables() {
         column("trial_length", none, "δ, in mean diameters"),
         column("coordination", none, "contacts of a grain"),
         column("events", none, "rolls and drops of a grain in the last shake"),
+        column("loosened_fraction", none,
+               "φ after the moves at random, before grains were laid, in the last shake"),
+        column(
+            "surface_angle", angle,
+            "of a drum: from the horizontal, of the line across the one from its axis to the middle of all grains"),
+        column(
+            "core", none,
+            "of a drum: distance from their middle of grains smaller than the mean one, over that of larger ones; rms"),
         column("mass", none, "grains on the lattice"),
         column("moving", none, "of these such as move, of a lattice gas"),
         column("momentum_*", none,

@@ -6,14 +6,15 @@ namespace chute {
 /// What a method gives to whoever watches it.
 struct Offers {
   bool in_2d = true, in_3d = true;
-  bool contacts = false;           ///< what touches, with forces
-  bool collisions = false;         ///< what passes between hard grains, collision by collision
-  bool impacts = false;            ///< the begin of each contact
-  bool independent = false;        ///< grains side by side that do not feel each other
-  bool walls = false;              ///< planes that stand still
-  bool only_floor = false;         ///< of these only level ones, below the grains
-  bool wall_shapes = false;        ///< segments, polygons and cylinders
-  bool wall_motion = false;        ///< walls that move
+  bool contacts = false;     ///< what touches, with forces
+  bool collisions = false;   ///< what passes between hard grains, collision by collision
+  bool impacts = false;      ///< the begin of each contact
+  bool independent = false;  ///< grains side by side that do not feel each other
+  bool walls = false;        ///< planes that stand still
+  bool only_floor = false;   ///< of these only level ones, below the grains
+  bool drum = false;         ///< besides, in the plane, a circle around all grains, alone, with its friction
+  bool wall_shapes = false;  ///< segments, polygons and cylinders
+  bool wall_motion = false;  ///< walls that move
   bool wall_surfaces = false;      ///< friction and restitution of a wall's own
   bool wall_sticking = false;      ///< tangential restitution of a wall's own
   bool wall_temperatures = false;  ///< walls that heat

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "common/angle.hpp"
 #include "common/atomic_file.hpp"
 #include "core/sphere.hpp"
-#include "scene/angle.hpp"
 
 namespace chute::experiments {
 namespace {
@@ -53,7 +53,7 @@ static void check_angle(const Archive& a, const Experiment& e) {
   a.check(e.psi.has_value() + e.angle.has_value() + e.sine.has_value() == 1, "kind",
           "needs one of psi = 1.5, angle = \"60 deg\" and sin = 0.9: the impact angle");
   if (!e.angle) return;
-  const auto theta = scene::parse_angle(*e.angle);
+  const auto theta = parse_angle(*e.angle);
   a.check(
       theta && *theta >= 0 && *theta < std::numbers::pi / 2, "angle",
       fmt::format("\"{}\" is not allowed, write an angle from \"0 deg\" to less than \"90 deg\"", *e.angle));
@@ -133,7 +133,7 @@ static void describe(Archive& a, Experiment& e) {
 double Experiment::theta() const {
   if (psi) return std::atan(*psi);
   if (sine) return std::asin(*sine);
-  return angle ? scene::parse_angle(*angle).value() : 0;
+  return angle ? parse_angle(*angle).value() : 0;
 }
 
 laws::Pair Experiment::pair() const {

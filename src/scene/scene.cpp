@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/angle.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
-#include "scene/angle.hpp"
 #include "scene/choose_contact.hpp"
 #include "scene/world.hpp"
 

@@ -163,7 +163,10 @@ engines::Setting setting_of(const Scene& scene) {
   s.grains = sizes.count;
   s.independent = scene.grains.independent;
   s.rotation = scene.grains.rotation;
-  for (const auto& wall : scene.walls) s.wall_surfaces.push_back(wall.surface);
+  for (const auto& wall : scene.walls) {
+    s.wall_surfaces.push_back(wall.surface);
+    s.drum = std::max(s.drum, wall.radius.value_or(0));
+  }
   s.fastest = sizes.fastest;
   if (const auto* start = scene.grains.start.as<starts::MadeStart>()) {
     constexpr double farthest = 3.5;  // standard deviations; one component in two thousand is faster
@@ -198,7 +201,7 @@ namespace {
 
 /// What of [[wall]] cannot be.
 std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers, const Periods& periods,
-                                        double widest) {
+                                        const beds::Ground& ground, double widest) {
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
     const WallSpec& wall = scene.walls[w];
     const auto path = fmt::format("wall[{}]", w);
@@ -209,12 +212,17 @@ std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers
       return Refusal{path + key, fmt::format("engine.method = \"{}\" {}", scene.engine.word(), what)};
     };
     const auto& own = wall.surface;
+    const bool drum = offers.drum && wall.radius && scene.dimensions == 2;
+    if (drum && (scene.walls.size() > 1 || ground.smooth || !ground.beads.empty()))
+      return Refusal{path, fmt::format("engine.method = \"{}\" takes a drum alone, with bed.kind = \"none\"",
+                                       scene.engine.word())};
     for (const auto& wrong :
          {lacks(offers.walls, "", true, "knows no walls"),
-          lacks(offers.wall_shapes, "", !wall.is_plane(), "knows only planes"),
+          lacks(offers.wall_shapes || drum, "", !wall.is_plane(),
+                offers.drum ? "knows no walls but a level floor, or in 2D a drum" : "knows only planes"),
           lacks(offers.wall_motion, "", wall.moves(), "knows only walls that stand still"),
-          lacks(!offers.only_floor, ".normal", !wall.is_level(), "knows no walls but a level floor"),
-          lacks(offers.wall_surfaces, ".friction", own.friction.has_value(),
+          lacks(!offers.only_floor || drum, ".normal", !wall.is_level(), "knows no walls but a level floor"),
+          lacks(offers.wall_surfaces || drum, ".friction", own.friction.has_value(),
                 "gives walls no friction of their own"),
           lacks(offers.wall_surfaces, ".restitution", own.restitution.has_value(),
                 "gives walls no restitution of their own"),
@@ -284,7 +292,7 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
                      scene.incline.tilting.has_value()))
     return r;
   if (auto r = lacks(offers.walls, "knows no walls", "bed.kind", ground.smooth)) return r;
-  if (auto r = refusal_of_walls(scene, offers, periods, setting.mean_diameter)) return r;
+  if (auto r = refusal_of_walls(scene, offers, periods, ground, setting.mean_diameter)) return r;
   for (const auto& output : scene.output) {
     if (!output->wanted()) continue;
     const auto needs = output->needs();

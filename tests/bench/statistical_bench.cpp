@@ -40,7 +40,7 @@ BENCHMARK(rice_pile)->Arg(64)->Arg(256);
 void gas_in_space(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   test::Gas<3> gas(count, 0.05);
-  gas.setup.contact.restitution = laws::ConstantRestitution{0.95};
+  gas.setup.contact.restitution = laws::ConstantRestitution{1};
   gas.setup.time_step =
       0.2 / dsmc::collision_rate<3>(0.05 * 6 / std::numbers::pi, 1, dsmc::chi<3>(0.05), 1, 1);
   gas.setup.cell = 5.9;  // some 20 grains
@@ -57,6 +57,7 @@ BENCHMARK(gas_in_space)
     ->Args({100'000, 1})
     ->Args({100'000, 2})
     ->Args({1'000'000, 1})
+    ->Args({1'000'000, 2})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 

@@ -16,7 +16,7 @@ std::optional<Rest<D>> laid_on(const std::vector<Vec<D>>& places, const Vec<D>& 
   Columns<D> columns(grains, {});
   for (std::size_t i = 0; i < places.size(); ++i) columns.lay({places[i], 0.5, static_cast<std::int32_t>(i)});
   Random random(1, Purpose::engine);
-  return Placer<D>(columns, floor).place(lateral, 0.5, random);
+  return Placer<D>(columns, Bounds{floor}).place(lateral, 0.5, random);
 }
 constexpr double none = -std::numeric_limits<double>::infinity();
 
@@ -47,7 +47,7 @@ TEST_CASE("exactly on top a disc goes to one side, and both sides occur") {
   columns.lay({{}, 0.5, 0});
   for (std::uint64_t k = 0; k < 100; ++k) {
     Random random(1, Purpose::engine, k);
-    const auto rest = Placer<2>(columns, -0.5).place({}, 0.5, random);
+    const auto rest = Placer<2>(columns, Bounds{-0.5}).place({}, 0.5, random);
     REQUIRE(rest);
     CHECK(std::abs(rest->place[0]) == Approx(1));
     right += rest->place[0] > 0;

@@ -40,6 +40,7 @@ struct Setting {
   bool independent = false, rotation = true;
   double launch_velocity = 0;              ///< mean v_x at the start
   double fastest = 0;                      ///< how fast the fastest grain is at the start, about
+  double drum = 0;                         ///< radius of the cylinder among [[wall]]; 0: there is none
   std::vector<WallSurface> wall_surfaces;  ///< of [[wall]], in order: what is their own
 
   /// What a step resolves: the smaller of a mean grain and a bead of the bed.

@@ -33,16 +33,79 @@ bool Placer<D>::touches(const Placed<D>& grain) const {
   return false;
 }
 
+template <int D>
+Placed<D> Placer<D>::drum() const {
+  Placed<D> wall;
+  for (int k = 0; k < 2; ++k) wall.place[k == 0 ? 0 : D - 1] = bounds_.drum->centre[k];
+  wall.radius = bounds_.drum->radius, wall.id = drum_id;
+  return wall;
+}
+
+/// Is the wall, whose normal this is, so level here that it holds the grain alone?
+template <int D>
+bool Placer<D>::held_by_drum(const Vec<D>& normal) const {
+  return normal[D - 1] > 0 && std::abs(normal[0]) <= bounds_.drum->steepest * normal[D - 1] + level;
+}
+
+/// From no higher than the drum's wall above it. Where grains lie up to there, one that is to fall comes in nearer to the
+/// drum's top instead: along the wall, at the first place where it has room; then it touches what was in its way.
+template <int D>
+typename Placer<D>::Entry Placer<D>::enter_drum(double& from) {
+  const Vec<D> middle = drum().place;
+  const double rho = room();
+  place_[0] = std::clamp(place_[0], middle[0] - rho, middle[0] + rho);
+  const double aside = place_[0] - middle[0], side = aside < 0 ? -1 : 1;
+  double angle = std::acos(std::min(1.0, std::abs(aside) / rho));  // above the horizontal
+  const double ceiling = middle[D - 1] + rho * std::sin(angle);
+  if (from < ceiling) return Entry::free;
+  place_[D - 1] = from = ceiling;
+  for (int tries = 0; tries < most_events; ++tries) {
+    double next = angle;
+    Placed<D> blocking;
+    columns_.near({place_, 0}, radius_, [&](const Placed<D>& grain) {
+      const Vec<D> way = grain.place - middle;
+      const double q = norm(way), contact = reach(grain);
+      if (norm(place_ - grain.place) >= (1 - yielding) * contact || q == 0) return;
+      const double cosine = (rho * rho + q * q - contact * contact) / (2 * rho * q);
+      const double beyond = std::atan2(way[D - 1], side * way[0]) + std::acos(std::clamp(cosine, -1.0, 1.0));
+      if (beyond > next) next = beyond, blocking = grain;
+    });
+    if (next == angle) return tries == 0 ? Entry::free : Entry::wedged;
+    if (next > std::numbers::pi / 2) return Entry::full;
+    angle = next;
+    place_ = middle;
+    place_[0] += side * rho * std::cos(angle), place_[D - 1] += rho * std::sin(angle);
+    touching_ = {{blocking}, {drum()}};
+  }
+  return Entry::full;
+}
+
+/// Height of the drum's wall below the grain, for its centre.
+template <int D>
+double Placer<D>::drum_below() const {
+  const double aside = place_[0] - bounds_.drum->centre[0];
+  return bounds_.drum->centre[1] - std::sqrt(std::max(0.0, room() * room() - aside * aside));
+}
+
 /// Falls to the first contact below `from`; past those that it touches, whose equators it has reached.
 template <int D>
 bool Placer<D>::fall(double from) {
   Placed<D> hit;
+  if (bounds_.drum) {
+    const auto entry = enter_drum(from);
+    if (entry != Entry::free) return entry == Entry::wedged;
+  }
   const double slack = level * radius_;
   const double height = columns_.highest_contact(
       place_, radius_, from + slack, [this](const Placed<D>& grain) { return !touches(grain); }, hit);
   touching_.clear();
-  place_[D - 1] = std::max(height, floor_ + radius_);
-  if (height <= floor_ + radius_) return false;
+  if (bounds_.drum) {
+    place_[D - 1] = std::max(height, drum_below());
+    touching_.push_back({height > drum_below() ? hit : drum()});
+    return true;
+  }
+  place_[D - 1] = std::max(height, bounds_.floor + radius_);
+  if (height <= bounds_.floor + radius_) return false;
   touching_.push_back({hit});
   return true;
 }
@@ -93,9 +156,10 @@ typename Placer<D>::Next Placer<D>::choose(const Touching* lost, Random& random)
   const std::size_t n = touching_.size();
   bool held = false;
   for (auto& t : touching_) {
-    t.normal = unit(place_ - t.grain.place);
+    t.normal = unit(t.is_drum() ? t.grain.place - place_ : place_ - t.grain.place);
     t.rolling = false;
-    held = held || (&t != lost && t.normal[up] > level);
+    // At its equator a grain carries nothing, but along the drum's wall the way leads on.
+    held = held || (&t != lost && t.normal[up] > (t.is_drum() ? -level : level));
   }
   if (!held) return Next::fall;
   const auto go = [&](const Vec<D>& v) {
@@ -108,10 +172,14 @@ typename Placer<D>::Next Placer<D>::choose(const Touching* lost, Random& random)
   for (const double slack : {1e-12, 1e-9, 1e-6}) {
     for (std::size_t i = 0; i < n; ++i) {
       const Vec<D>& a = touching_[i].normal;
-      if (&touching_[i] == lost || a[up] <= 0) continue;
+      if (&touching_[i] == lost || a[up] <= (touching_[i].is_drum() ? -level : 0)) continue;
       const Vec<D> v = downwards<D>() + a[up] * a;
       if (!allowed(v, {i}, lost, slack)) continue;
       on_[0] = i, rolls_on_ = 1;
+      if (touching_[i].is_drum() && held_by_drum(a)) {
+        touching_[i].rolling = true;
+        return Next::stable;
+      }
       return go(v);
     }
     for (std::size_t i = 0; i < n; ++i)
@@ -154,6 +222,13 @@ template <int D>
 typename Placer<D>::Arc Placer<D>::arc() const {
   Arc arc;
   const Touching& a = touching_[on_[0]];
+  if (a.is_drum() && rolls_on_ == 1) {
+    arc.centre = a.grain.place;
+    arc.radius = room();
+    arc.from = -1 * a.normal;
+    arc.ahead = unit(down_ - dot(down_, arc.from) * arc.from);
+    return arc;
+  }
   if (rolls_on_ == 1) {
     arc.centre = a.grain.place;
     arc.radius = reach(a.grain);
@@ -189,6 +264,26 @@ std::optional<typename Placer<D>::Turn> Placer<D>::root(double a, double b, doub
   return turn;
 }
 
+/// The second root of f = a sin + b (cos − 1), f > 0 before it: the first, at 0, is a contact that the grain has now. It lies
+/// where tan(turn/2) = a/b.
+template <int D>
+std::optional<typename Placer<D>::Turn> Placer<D>::meeting_again(double a, double b) {
+  if (b <= 0) return {};
+  const double tan = std::max(a, 0.0) / b;
+  return Turn{2 * tan / (1 + tan * tan), (1 - tan * tan) / (1 + tan * tan)};
+}
+
+/// Where on the arc the grain meets the drum: where its centre is as far from the drum's as it may be.
+template <int D>
+std::optional<typename Placer<D>::Turn> Placer<D>::meeting_drum(const Arc& arc) const {
+  if (!bounds_.drum) return {};
+  const Vec<D> q = arc.centre - drum().place;
+  const double a = -2 * arc.radius * dot(q, arc.ahead), b = -2 * arc.radius * dot(q, arc.from);
+  for (const auto& t : touching_)
+    if (t.is_drum()) return t.rolling ? std::nullopt : meeting_again(a, b);
+  return root(a, b, arc.radius * arc.radius + dot(q, q) - room() * room());
+}
+
 /// Where on the arc the grain meets that one.
 template <int D>
 std::optional<typename Placer<D>::Turn> Placer<D>::meeting(const Arc& arc, const Placed<D>& grain) const {
@@ -196,10 +291,7 @@ std::optional<typename Placer<D>::Turn> Placer<D>::meeting(const Arc& arc, const
   const double a = 2 * arc.radius * dot(q, arc.ahead), b = 2 * arc.radius * dot(q, arc.from);
   for (const auto& t : touching_) {
     if (t.grain.id != grain.id || !(t.grain.place == grain.place)) continue;
-    // f = a sin + b (cos − 1): it touches now, and meets it again at the other root, tan(turn/2) = a/b.
-    if (t.rolling || b <= 0) return {};
-    const double tan = std::max(a, 0.0) / b;
-    return Turn{2 * tan / (1 + tan * tan), (1 - tan * tan) / (1 + tan * tan)};
+    return t.rolling ? std::nullopt : meeting_again(a, b);
   }
   const auto entry = [&](double contact) -> std::optional<Turn> {
     const double c = contact * contact - arc.radius * arc.radius - dot(q, q);
@@ -209,7 +301,8 @@ std::optional<typename Placer<D>::Turn> Placer<D>::meeting(const Arc& arc, const
   return inside ? entry(reach(grain)) : inside;
 }
 
-/// Where the arc ends if nothing is in the way: on one at its equator, on two where one of them carries nothing.
+/// Where the arc ends if nothing is in the way: on one at its equator, on the drum where that holds the grain, on two where
+/// one of them carries nothing.
 template <int D>
 typename Placer<D>::Turn Placer<D>::own_end(const Arc& arc, End& end) const {
   constexpr int up = D - 1;
@@ -218,6 +311,13 @@ typename Placer<D>::Turn Placer<D>::own_end(const Arc& arc, End& end) const {
   const auto earlier = [&](const std::optional<Turn>& turn, End what) {
     if (turn && turn->before(last)) last = *turn, end = what;
   };
+  if (rolls_on_ == 1 && touching_[on_[0]].is_drum()) {
+    const double steep = bounds_.drum->steepest, part = 1 / std::hypot(1.0, steep);
+    Vec<D> held{};
+    held[0] = std::copysign(steep * part, arc.from[0]), held[up] = -part;
+    end = End::held;
+    return {dot(held, arc.ahead), dot(held, arc.from)};
+  }
   if (rolls_on_ == 1) {
     last = {arc.from[up], -arc.ahead[up]};
   } else {
@@ -228,8 +328,9 @@ typename Placer<D>::Turn Placer<D>::own_end(const Arc& arc, End& end) const {
     earlier(root(pa * arc.ahead[up], pa * arc.from[up], g * hb - ha), End::loses_first);
     earlier(root(pb * arc.ahead[up], pb * arc.from[up], g * ha - hb), End::loses_second);
   }
-  earlier(root(arc.radius * arc.ahead[up], arc.radius * arc.from[up], floor_ + radius_ - arc.centre[up]),
-          End::floor);
+  earlier(
+      root(arc.radius * arc.ahead[up], arc.radius * arc.from[up], bounds_.floor + radius_ - arc.centre[up]),
+      End::floor);
   return last;
 }
 
@@ -251,14 +352,17 @@ std::optional<Rest<D>> Placer<D>::place(const Vec<D>& lateral, double radius, Ra
   for (int event = 1; event <= most_events; ++event) {
     if (falls) {
       if (!fall(from)) {
-        if (floor_ == -std::numeric_limits<double>::infinity()) return {};
+        if (bounds_.drum || bounds_.floor == -std::numeric_limits<double>::infinity()) return {};
         return rest(true, event);
       }
       falls = false;
     }
     const Next next = choose(lost, random);
     lost = nullptr;
-    if (next == Next::stable) return rest(false, event);
+    if (next == Next::stable) {
+      if (bounds_.drum && norm(place_ - drum().place) > room() * (1 + level)) return {};  // the drum is full
+      return rest(false, event);
+    }
     if (next == Next::fall) {
       falls = true, from = place_[up];
       continue;
@@ -275,6 +379,8 @@ std::optional<Rest<D>> Placer<D>::place(const Vec<D>& lateral, double radius, Ra
       const auto turn = meeting(way, grain);
       if (turn && turn->before(last)) last = *turn, end = End::contact, met = grain;
     });
+    if (const auto turn = meeting_drum(way); turn && turn->before(last))
+      last = *turn, end = End::contact, met = drum();
     const bool moved = last.sin != 0 || last.cos < 0;
     if (moved) place_ = way.at(last);
     if (moved || end != End::contact)
@@ -284,8 +390,10 @@ std::optional<Rest<D>> Placer<D>::place(const Vec<D>& lateral, double radius, Ra
       case End::equator:
         falls = true, from = place_[up];
         break;
+      case End::held:
+        return rest(false, event);
       case End::floor:
-        place_[up] = floor_ + radius_;
+        place_[up] = bounds_.floor + radius_;
         return rest(true, event);
       case End::contact:
         touching_.push_back({met});

@@ -14,16 +14,21 @@
 namespace chute::restructuring {
 namespace {
 
-/// Height of the floor, −infinity where there is none.
+/// The walls as bounds, and which of them it is.
 template <int D>
-double floor_of(const std::vector<Wall<D>>& walls) {
-  double height = -std::numeric_limits<double>::infinity();
-  for (const auto& wall : walls) {
+Bounds bounds_of(const std::vector<Wall<D>>& walls, std::size_t& which) {
+  Bounds bounds;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const auto& wall = walls[w];
+    if (const auto* round = wall.cylinder(); round && D == 2 && walls.size() == 1) {
+      bounds.drum = {{{wall.point[0], wall.point[D - 1]}}, round->radius, wall.surface.friction.value_or(0)};
+      return bounds;
+    }
     if (wall.normal[D - 1] != 1)
-      throw WorkError("restructuring lays grains on a level floor; it knows no other wall");
-    height = std::max(height, wall.point[D - 1]);
+      throw WorkError("restructuring lays grains on a level floor or in a drum; it knows no other wall");
+    if (wall.point[D - 1] > bounds.floor) bounds.floor = wall.point[D - 1], which = w;
   }
-  return height;
+  return bounds;
 }
 
 }  // namespace
@@ -32,11 +37,13 @@ template <int D>
 RestructuringEngine<D>::RestructuringEngine(Grains<D> grains, const RestructuringSetup<D>& setup)
     : setup_(setup),
       grains_(std::move(grains)),
-      floor_(floor_of<D>(setup.walls)),
+      bounds_(bounds_of<D>(setup.walls, wall_)),
       columns_(grains_, setup_.domain),
-      placer_(columns_, floor_),
+      placer_(columns_, bounds_),
       supports_(grains_.moving),
       start_place_(grains_.position) {
+  if (bounds_.drum && !(*std::ranges::max_element(grains_.radius) < bounds_.drum->radius))
+    throw WorkError("a grain is larger than the drum");
   for (auto& force : no_force_) force.assign(grains_.size(), 0);
   for (int k = 0; k < D; ++k) {
     std::fill_n(grains_.velocity[static_cast<std::size_t>(k)].begin(), grains_.moving, 0.0);
@@ -54,6 +61,7 @@ void RestructuringEngine<D>::shake() {
   ++step_;
   events_ = 0;
   if (setup_.loosening && step_ > 1) loosen();
+  if (step_ > 1) turn();
   const bool cooperative = setup_.stabilise == Stabilise::cooperative && step_ > 1;
   columns_.clear();
   for (std::size_t j = grains_.moving; j < grains_.size(); ++j)
@@ -74,6 +82,21 @@ void RestructuringEngine<D>::shake() {
   for (const auto i : order) {
     if (cooperative) columns_.take(as_it_lies(i));
     lay(i, cooperative ? height[i] : std::numeric_limits<double>::infinity());
+  }
+}
+
+/// The drum turns, and everything in it as one body.
+template <int D>
+void RestructuringEngine<D>::turn() {
+  if (!bounds_.drum || setup_.turn == 0) return;
+  const double sine = std::sin(setup_.turn), cosine = std::cos(setup_.turn);
+  const auto& middle = bounds_.drum->centre;
+  auto &x = grains_.position[0], &z = grains_.position[D - 1];
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    const double along = x[i] - middle[0], above = z[i] - middle[1];
+    x[i] = middle[0] + cosine * along - sine * above;
+    z[i] = middle[1] + sine * along + cosine * above;
+    if constexpr (D == 2) grains_.orientation[0][i] += setup_.turn;
   }
 }
 
@@ -111,15 +134,20 @@ void RestructuringEngine<D>::lay(std::size_t i, double from) {
   const auto& domain = setup_.domain;
   for (int k = 0; k + 1 < D; ++k) {
     const double length = domain.periodic(k) ? domain.length[k] : 0;
-    if (setup_.rain != Rain::none && step_ == 1)
-      place[k] = domain.lower[k] + (setup_.rain == Rain::line ? random.uniform() : 0.5) * length;
+    if (setup_.rain != Rain::none && step_ == 1) {
+      const double part = setup_.rain == Rain::line ? random.uniform() : 0.5;
+      place[k] = bounds_.drum ? bounds_.drum->centre[0] + (2 * part - 1) * bounds_.drum->radius
+                              : domain.lower[k] + part * length;
+    }
     if (setup_.jolt > 0) place[k] += random.uniform(-setup_.jolt, setup_.jolt);
   }
   const auto rest = placer_.place(place, grains_.radius[i], random, from);
   if (!rest)
-    leave_physics(i,
-                  fmt::format("it found no rest: it fell through the bed, or its way has more than {} events",
-                              Placer<D>::most_events));
+    leave_physics(i, bounds_.drum
+                         ? std::string("it found no rest: the drum is too full")
+                         : fmt::format("it found no rest: it fell through the bed, or its way has more "
+                                       "than {} events",
+                                       Placer<D>::most_events));
   Supports& supports = supports_[i];
   supports.count = 0;
   for (int k = 0; k < rest->count; ++k)
@@ -164,7 +192,8 @@ std::vector<Contact> RestructuringEngine<D>::contacts() const {
       Vec<D> way{};
       double own = grains_.radius[i];
       if (is_wall(other)) {
-        way[D - 1] = floor_ - grains_.position[D - 1][i];
+        const auto touch = setup_.walls[wall_].nearest(grains_.place(i), 0, setup_.domain);
+        way = -touch.height * touch.normal;
         contact.a = static_cast<std::int64_t>(i), contact.b = other;
       } else {
         const auto j = static_cast<std::size_t>(other), a = std::min(i, j), b = std::max(i, j);
@@ -200,7 +229,32 @@ std::vector<std::pair<std::string, double>> RestructuringEngine<D>::tells() cons
                                                    {"coordination", static_cast<double>(ends) / n},
                                                    {"events", static_cast<double>(events_) / n}};
   if (setup_.loosening) list.emplace_back("loosened_fraction", loosened_);
+  if (bounds_.drum) add_drum(list);
   return list;
+}
+
+/// What a drum tells. A bed with a straight surface is the same on both sides of the line through its middle that is upright
+/// on the surface, and so is the drum: that line goes through the drum's axis, and its slope is the surface's.
+template <int D>
+void RestructuringEngine<D>::add_drum(std::vector<std::pair<std::string, double>>& list) const {
+  const auto &x = grains_.position[0], &z = grains_.position[D - 1];
+  const auto n = static_cast<double>(grains_.moving);
+  double along = 0, above = 0, mass = 0, size = 0;
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    along += grains_.mass[i] * x[i], above += grains_.mass[i] * z[i], mass += grains_.mass[i];
+    size += grains_.radius[i] / n;
+  }
+  along /= mass, above /= mass;
+  const auto& middle = bounds_.drum->centre;
+  list.emplace_back("surface_angle", std::atan2(along - middle[0], middle[1] - above));
+  double square[2] = {}, count[2] = {};  // of smaller and larger grains
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    const std::size_t large = grains_.radius[i] > size;
+    square[large] += std::pow(x[i] - along, 2) + std::pow(z[i] - above, 2), ++count[large];
+  }
+  list.emplace_back("core", count[0] > 0 && count[1] > 0
+                                ? std::sqrt(square[0] / count[0] / (square[1] / count[1]))
+                                : std::numeric_limits<double>::quiet_NaN());
 }
 
 template <int D>

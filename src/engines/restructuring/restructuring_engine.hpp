@@ -32,6 +32,8 @@ struct RestructuringSetup : Surroundings<D> {
   std::uint64_t seed = 1;
   Rain rain = Rain::none;
   double jolt = 0;  ///< largest lateral shift of a grain in each direction before it falls; a length
+  double turn =
+      0;  ///< by which all grains turn about the drum's middle before every shake but the first; anticlockwise
   std::optional<Loosening> loosening{};         ///< before every shake but the first
   Stabilise stabilise = Stabilise::sequential;  ///< from the second shake on
 };
@@ -39,10 +41,14 @@ struct RestructuringSetup : Surroundings<D> {
 /// Bottom-to-top restructuring, thesis 2.3: in every shake all grains are taken up and laid again one by one, in the order
 /// of their heights. Each keeps its lateral place, up to a random jolt, and goes down the steepest way over those that lie
 /// already; higher ones do not matter to it. There is no time, no force and no arch: a step is a shake.
+///
+/// In the plane they may lie in a drum (Baumann, Jánosi & Wolf, Phys. Rev. E 51, 1879 (1995)), which before each shake turns
+/// with all that is in it. Where its wall is no steeper than its friction allows, it holds a grain as a floor does; where it
+/// is steeper, grains roll down along it.
 template <int D>
 class RestructuringEngine final : public Engine {
  public:
-  /// WorkError if there is a wall that is no level floor.
+  /// WorkError if there is a wall that is neither a level floor nor, alone and in the plane, a drum.
   RestructuringEngine(Grains<D> grains, const RestructuringSetup<D>& setup);
 
   std::int64_t step() const override { return step_; }
@@ -64,9 +70,11 @@ class RestructuringEngine final : public Engine {
  private:
   void advance(std::int64_t step) override;
   void shake();
+  void turn();
   void loosen();
   void lay(std::size_t i, double from);
   bool still_touch(double way, double reach) const;
+  void add_drum(std::vector<std::pair<std::string, double>>& list) const;
 
   struct Supports {
     std::array<std::int64_t, D + 1> id{};
@@ -79,7 +87,8 @@ class RestructuringEngine final : public Engine {
 
   RestructuringSetup<D> setup_;
   Grains<D> grains_;
-  double floor_;
+  std::size_t wall_ = 0;  // which of the walls bears grains
+  Bounds bounds_;
   Columns<D> columns_;
   Placer<D> placer_;
   std::vector<Supports> supports_;

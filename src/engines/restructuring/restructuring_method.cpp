@@ -1,5 +1,9 @@
 #include "engines/restructuring/restructuring_method.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 namespace chute::restructuring {
 namespace {
 
@@ -10,6 +14,7 @@ std::unique_ptr<Engine> made(World<D> world, const RestructuringMethod& method,
   setup.seed = setting.seed;
   setup.rain = method.rain;
   setup.jolt = method.jolt * setting.mean_diameter;
+  if (method.turn) setup.turn = *parse_angle(*method.turn);
   setup.stabilise = method.stabilise;
   if (method.loosening.expand > 0) {
     setup.loosening = method.loosening;
@@ -23,6 +28,16 @@ std::unique_ptr<Engine> made(World<D> world, const RestructuringMethod& method,
 std::optional<Refusal> RestructuringMethod::refusal(const engines::Setting& s) const {
   if (s.theta != 0)
     return Refusal{"incline", "restructuring lays grains straight down: it needs angle = \"0 deg\""};
+  if (turn && s.drum == 0) return Refusal{"engine.turn", "turns a drum: it needs a [[wall]] with a radius"};
+  if (s.drum > 0 && loosening.expand > 0)
+    return Refusal{"engine.expand", "stretches heights, and a drum has no room for that"};
+  constexpr double densest = 0.8;  // about what discs that are laid fill
+  if (const double part = static_cast<double>(s.grains) * std::pow(s.mean_diameter / 2 / s.drum, 2);
+      s.drum > 0 && part > densest)
+    return Refusal{"grains.count",
+                   fmt::format("fill {:.3g} of the drum; laid discs need more room, at most {} is "
+                               "possible",
+                               part, densest)};
   return {};
 }
 

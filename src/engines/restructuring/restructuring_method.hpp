@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "common/angle.hpp"
 #include "engines/kind/method.hpp"
 #include "engines/restructuring/restructuring_engine.hpp"
 
@@ -14,6 +15,7 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
   Rain rain = Rain::none;
   static constexpr std::array<std::string_view, 3> rains{"none", "line", "point"};
   double jolt = 0;
+  std::optional<std::string> turn;  ///< as it is written
   Stabilise stabilise = Stabilise::sequential;
   static constexpr std::array<std::string_view, 2> stabilises{"sequential", "cooperative"};
   Loosening loosening;  ///< its step in mean diameters
@@ -26,6 +28,10 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
         "their heights; from random places; from one point");
     a.value("jolt", jolt, between(0, 10),
             "largest random shift sideways before a grain falls, in mean diameters");
+    a.value("turn", turn,
+            "angle, \"2 deg\" or \"0.03 rad\", by which a drum turns before every shake but the first; "
+            "anticlockwise if positive");
+    if (turn) a.check(parse_angle(*turn).has_value(), "turn", "must be an angle, \"2 deg\" or \"0.03 rad\"");
     a.choice(
         "stabilise", stabilise, stabilises,
         "from the second shake on: a grain is laid on those that lie already; or among all, where they are now");
@@ -38,7 +44,7 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
     a.value("step", loosening.step, positive, "longest of these moves, in mean diameters");
   }
   Offers offers() const override {
-    return {.contacts = true, .walls = true, .only_floor = true, .clock = "shakes"};
+    return {.contacts = true, .walls = true, .only_floor = true, .drum = true, .clock = "shakes"};
   }
   std::optional<Refusal> refusal(const engines::Setting& setting) const override;
   double step(const engines::Setting&) const override { return 1; }

@@ -1,10 +1,10 @@
-#include "scene/angle.hpp"
+#include "common/angle.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
-namespace chute::scene {
+namespace chute {
 
 std::optional<double> parse_angle(std::string_view text) {
   double value = 0;
@@ -17,4 +17,4 @@ std::optional<double> parse_angle(std::string_view text) {
   return {};
 }
 
-}  // namespace chute::scene
+}  // namespace chute
