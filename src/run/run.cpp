@@ -117,8 +117,7 @@ class Run {
         options_.warn(
             fmt::format("{}: written by {}, this is {}: the results may differ from those of one program",
                         directory_.file("checkpoint").string(), checkpoint.program, program()));
-      std::istringstream state(checkpoint.state);
-      const auto told = session_.load(state);
+      const auto told = session_.load(*checkpoint.state);
       if (engine().step() > session_.last_step())
         throw InputError(fmt::format("run.duration: {:.6g} is over: the run in {} is at t = {:.6g}",
                                      scene_.duration, directory_.path().string(), engine().time()));
@@ -188,7 +187,9 @@ class Run {
     const auto before = Clock::now();
     session_.write();
     const auto path = directory_.file("checkpoint");
-    auto checkpoint = io::made_checkpoint(path, {resolved_, program()}, session_.grains(),
+    const auto grains = session_.grains();
+    auto checkpoint = io::made_checkpoint(path, {resolved_, program()},
+                                          {grains.size(), [&](std::ostream& out) { grains.write(out); }},
                                           [&](std::ostream& out) { session_.save(out); });
     checkpoint.begin_flush();
     files_->commit();

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "io/plain_grains.hpp"
 #include "measure/series.hpp"
 #include "scene/scene.hpp"
 
@@ -35,8 +36,8 @@ class Session {
 
   /// All files as of now, which RunFiles::commit then shows.
   void write() const;
-  /// The grains as a VTK file, for checkpoints.
-  std::string grains() const { return io::grains_vtp(engine_->grains(), run_.facts, io::Packing::plain); }
+  /// The grains as a VTK file, for checkpoints; to be written before the engine moves on.
+  io::PlainGrains grains() const { return {engine_->grains(), run_.facts}; }
   void save(std::ostream& out) const;
   /// Goes on from what was saved, by a session of the same scene or of one that differs in its outputs and duration.
   /// Tells of outputs that begin here.

@@ -9,10 +9,13 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "common/error.hpp"
+#include "core/random.hpp"
 #include "folder.hpp"
 #include "io/grains_file.hpp"
+#include "io/plain_grains.hpp"
 #include "io/vtk_files.hpp"
 
 using namespace chute;
@@ -259,4 +262,37 @@ TEST_CASE("the time index names every file with its time") {
   const auto text = io::pvd(times, files);
   CHECK(text.find("<DataSet timestep=\"0.1\" part=\"0\" file=\"frames/000001.vtp\"/>") != text.npos);
   CHECK(text.find("<DataSet timestep=\"1e-07\" part=\"0\" file=\"frames/000002.vtp\"/>") != text.npos);
+}
+
+namespace {
+
+/// The piecewise writer against VTK's own.
+template <int D>
+void check_plain(const io::RunFacts& about) {
+  Sample<D> sample;
+  for (int i = 0; i < 20000; ++i) {  // more than are put together at once
+    Random random(1, Purpose::start, static_cast<std::uint64_t>(i));
+    Vec<D> r;
+    for (int k = 0; k < D; ++k) r[k] = 1e3 * random.normal();
+    sample.grains.add(r, random.uniform(), 1e-9 * random.uniform(), 1, false);
+    for (std::size_t k = 0; k < D; ++k) sample.force[k].push_back(random.normal());
+  }
+  for (const bool forces : {true, false}) {
+    if (!forces)
+      for (auto& column : sample.force) column.clear();
+    const io::PlainGrains plain(sample.view(), about);
+    std::ostringstream out;
+    plain.write(out);
+    CHECK(out.str().size() == plain.size());
+    CHECK((out.str() == io::grains_vtp(sample.view(), about, io::Packing::plain)));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("grains that are written piece by piece are the bytes that VTK writes") {
+  check_plain<2>(facts);
+  auto shaken = facts;
+  shaken.clock = "shakes", shaken.dimensions = 3;
+  check_plain<3>(shaken);
 }
