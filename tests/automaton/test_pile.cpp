@@ -68,6 +68,26 @@ TEST_CASE("avalanches are L large in the mean") {
   }
 }
 
+// P(s) = s^(−τ) G(s/L^D) has moments ⟨s^q⟩ ~ L^(D(1 + q − τ)). With ⟨s⟩ = L that is D(2 − τ) = 1, so that ⟨s²⟩ ~ L^(1 + D). Published:
+// τ = 1.55, D = 2.25 (Christensen et al. 1996).
+TEST_CASE("avalanches grow with the pile as published: D = 2.25, τ = 1.55") {
+  const auto square = [](std::int64_t L) {
+    auto pile = settled(L, 2 * L * L, 3);
+    double sum = 0;
+    constexpr int grains = 400000;
+    for (int t = 0; t < grains; ++t) {
+      pile.update(10'000'000 + t);
+      for (const auto& a : pile.take_avalanches())
+        sum += static_cast<double>(a.size) * static_cast<double>(a.size) / grains;
+    }
+    return sum;
+  };
+  const double D = std::log(square(384) / square(96)) / std::log(4.0) - 1, tau = 2 - 1 / D;
+  CAPTURE(D, tau);
+  CHECK(D == Approx(2.25).margin(0.04));
+  CHECK(tau == Approx(1.55).margin(0.02));
+}
+
 TEST_CASE("one site has the mean slope 3/2") {
   auto pile = settled(1, 100);
   double sum = 0;

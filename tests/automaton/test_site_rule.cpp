@@ -1,6 +1,4 @@
 // What happens at one site, against the rules written out a second time as a story with dice.
-#include <Random123/philox.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -8,8 +6,8 @@
 #include <random>
 
 #include "core/random.hpp"
+#include "engines/automaton/bit_planes.hpp"
 #include "engines/automaton/lattice.hpp"
-#include "engines/automaton/philox_row.hpp"
 #include "engines/automaton/site_rule.hpp"
 
 using namespace chute;
@@ -125,28 +123,113 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the table plays every site as the rules with dice do") {
+// A row that holds every state equally often, and what becomes of it again and again: sites of a state are in many places of
+// a block, and beside all others.
+namespace {
+
+constexpr std::size_t blocks = 3 * site_states / 8, row_sites = blocks * sites_of_block;
+using Row = std::vector<std::uint64_t>;
+
+Site state_at(std::size_t x) { return static_cast<Site>(x * 7 % site_states); }
+Row row_of_all_states() {
+  Row row(planes * blocks * words_of_block);
+  for (std::size_t x = 0; x < row_sites; ++x)
+    for (unsigned k = 0; k < planes; ++k)
+      row[k * blocks * words_of_block + x / 64] |= std::uint64_t{state_at(x) >> k & 1u} << x % 64;
+  return row;
+}
+Site site_in(const Row& row, std::size_t x) {
+  unsigned site = 0;
+  for (unsigned k = 0; k < planes; ++k)
+    site |= static_cast<unsigned>(row[k * blocks * words_of_block + x / 64] >> x % 64 & 1) << k;
+  return static_cast<Site>(site);
+}
+
+/// How often each state became each other one.
+std::vector<std::map<int, double>> counted(const SiteRule& rule, std::uint64_t steps, double& lost) {
+  const PlaneRule planes_rule(rule);
+  std::vector<std::map<int, double>> count(site_states);
+  for (std::uint64_t step = 0; step < steps; ++step) {
+    auto row = row_of_all_states();
+    lost += static_cast<double>(planes_rule.apply(best_isa(), {row.data(), blocks * words_of_block, blocks},
+                                                  {11, static_cast<std::uint32_t>(step % 5), step}));
+    for (std::size_t x = 0; x < row_sites; ++x) ++count[state_at(x)][site_in(row, x)];
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("planes of bits play every site with the probabilities of the rule") {
+  for (const SiteRule& rule : {SiteRule{0, 0, {}}, SiteRule{1, 0, {}}, SiteRule{0.35, 0.6, {{2, 1}}},
+                               SiteRule{0.1, 1, {{5, 0.3}, {0, 0.7}}}}) {
+    double lost = 0, mean_lost = 0, chi = 0, degrees = 0;
+    const auto count = counted(rule, 120, lost);
+    for (int s = 0; s < site_states; ++s) {
+      std::map<int, double> expected;
+      double all = 0;
+      for (const auto& [site, n] : count[static_cast<std::size_t>(s)]) all += n;
+      for (const auto& o : outcomes(static_cast<Site>(s), rule)) {
+        expected[o.site] += o.probability;
+        mean_lost += all * o.probability * o.lost;
+      }
+      for (const auto& [site, n] : count[static_cast<std::size_t>(s)]) {
+        CAPTURE(s, site);
+        REQUIRE(expected.count(site) == 1);  // nothing happens that cannot
+      }
+      for (const auto& [site, p] : expected) {
+        const auto found = count[static_cast<std::size_t>(s)].find(site);
+        const double n = found == count[static_cast<std::size_t>(s)].end() ? 0 : found->second;
+        const double mean = all * p;
+        CAPTURE(s, site, n, mean);
+        REQUIRE(mean > 30);
+        CHECK((n - mean) * (n - mean) / mean < 30);
+        chi += (n - mean) * (n - mean) / mean;
+      }
+      degrees += static_cast<double>(expected.size()) - 1;
+    }
+    CAPTURE(rule.dissipation, rule.gravity, chi, degrees);
+    CHECK(std::abs(chi - degrees) <= 5 * std::sqrt(2 * degrees));
+    CHECK(lost == Approx(mean_lost).epsilon(0.01));
+  }
+}
+
+TEST_CASE("the rule is the story with dice") {
   constexpr double p = 0.35, g = 0.6;
   constexpr int G = 2, games = 20000;
-  const SiteTable table({p, g, {{G, 1}}});
+  const SiteRule rule{p, g, {{G, 1}}};
   std::mt19937_64 dice(7);
   double chi = 0, degrees = 0;
   for (int s = 0; s < site_states; ++s) {
-    std::map<int, std::array<double, 2>> count;
-    for (int n = 0; n < games; ++n) {
-      count[played(Plain::decoded(static_cast<Site>(s)), p, g, G, dice).coded()][0] += 1;
-      count[table(static_cast<Site>(s), static_cast<std::uint32_t>(dice())) & 0xff][1] += 1;
+    std::map<int, double> count, expected;
+    for (int n = 0; n < games; ++n)
+      ++count[played(Plain::decoded(static_cast<Site>(s)), p, g, G, dice).coded()];
+    for (const auto& o : outcomes(static_cast<Site>(s), rule)) expected[o.site] += games * o.probability;
+    for (const auto& [site, n] : count) REQUIRE(expected.count(site) == 1);
+    for (const auto& [site, mean] : expected) {
+      CAPTURE(s, site, count[site], mean);
+      CHECK(std::pow(count[site] - mean, 2) / mean < 30);
+      chi += std::pow(count[site] - mean, 2) / mean;
     }
-    for (const auto& [site, n] : count) {
-      const double diff = n[0] - n[1];
-      CAPTURE(s, site, n[0], n[1]);
-      CHECK(diff * diff / (n[0] + n[1]) < 30);
-      chi += diff * diff / (n[0] + n[1]);
-    }
-    degrees += static_cast<double>(count.size()) - 1;
+    degrees += static_cast<double>(expected.size()) - 1;
   }
   CAPTURE(chi, degrees);
   CHECK(std::abs(chi - degrees) < 5 * std::sqrt(2 * degrees));
+}
+
+TEST_CASE("chances are the same bits with every instruction set, and others in other rows and steps") {
+  const PlaneRule rule({0.3, 0.4, {{5, 0.3}, {0, 0.7}}});
+  const auto played_with = [&](Isa isa, std::uint32_t row, std::uint64_t step) {
+    auto sites = row_of_all_states();
+    rule.apply(isa, {sites.data(), blocks * words_of_block, blocks}, {3, row, step});
+    return sites;
+  };
+  const auto baseline = played_with(Isa::baseline, 1, 77);
+  for (const Isa isa : {Isa::avx2, Isa::avx512})
+    if (best_isa() >= isa) CHECK(played_with(isa, 1, 77) == baseline);
+  CHECK(played_with(Isa::baseline, 2, 77) != baseline);
+  CHECK(played_with(Isa::baseline, 1, 78) != baseline);
+  CHECK(played_with(Isa::baseline, 1, 77 + (std::uint64_t{1} << 32)) != baseline);
 }
 
 TEST_CASE("gravity between two lattice directions is pulled in its own direction in the mean") {
@@ -157,23 +240,5 @@ TEST_CASE("gravity between two lattice directions is pulled in its own direction
       sum = sum + weight * unit_step(k), all += weight;
     CHECK(all == Approx(1));
     CHECK(std::remainder(std::atan2(sum[1], sum[0]) - angle, 2 * std::numbers::pi) == Approx(0).margin(1e-9));
-  }
-}
-
-TEST_CASE("rows of random words are Philox's, whatever the processor") {
-  const std::uint64_t seed = 0x123456789abcdefull, step = (std::uint64_t{5} << 32) + 77;
-  std::vector<std::uint32_t> words(2 * words_at_once), other(words);
-  philox_row(Isa::baseline, seed, 12, step, words);
-  for (const std::size_t x :
-       {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{64}, std::size_t{127}}) {
-    const r123::Philox4x32::ctr_type counter{
-        {static_cast<std::uint32_t>(x / 4), 12, 77, 5u << 8 | static_cast<std::uint32_t>(Purpose::engine)}};
-    const r123::Philox4x32::key_type key{{0x89abcdefu, 0x1234567u}};
-    CHECK(words[x] == r123::Philox4x32()(counter, key)[x % 4]);
-  }
-  for (const Isa isa : {Isa::avx2, Isa::avx512}) {
-    if (best_isa() < isa) continue;
-    philox_row(isa, seed, 12, step, other);
-    CHECK(other == words);
   }
 }

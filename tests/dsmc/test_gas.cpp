@@ -25,14 +25,14 @@ double rate_3d(double phi, double T, bool dense) {
 /// Measured over expected rate of an elastic gas. A grain takes part in 2/N of the collisions.
 template <int D>
 double rate_ratio(Dense dense, double phi, std::size_t count, std::int64_t steps, double cell = 3,
-                  double weight = 1) {
+                  double weight = 1, double step = 0.2) {
   Gas<D> gas(count, phi / weight, 1.3);
   gas.setup.weight = weight;
   const double expected =
       D == 2 ? rate_2d(phi, 1.3, dense != Dense::none) : rate_3d(phi, 1.3, dense != Dense::none);
   gas.setup.dense = dense;
   gas.setup.cell = cell;
-  gas.setup.time_step = 0.2 / expected;
+  gas.setup.time_step = step / expected;
   DsmcEngine<D> engine(gas.grains, gas.setup);
   engine.advance_to(20);  // until averages have a past
   const auto before = engine.collisions();
@@ -60,6 +60,53 @@ TEST_CASE("the rate does not depend on cells and step") {
   const double usual = rate_ratio<2>(Dense::rate, 0.1, 20000, 400);
   CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 400, 8) == Approx(usual).epsilon(0.006));
   CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 400, 1.5) == Approx(usual).epsilon(0.006));
+  CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 800, 3, 1, 0.1) == Approx(usual).epsilon(0.004));
+  CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 200, 3, 1, 0.4) == Approx(usual).epsilon(0.004));
+  CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 400, 3, 0.25) == Approx(usual).epsilon(0.006));
+}
+
+// Where there are gradients cells and steps matter: a gas between a hot and a cold mirror, whose heat flux carries momentum and
+// energy over a cell and a step. The error grows like their squares, so half of a fine cell and step changes nothing.
+TEST_CASE("a flux of heat does not depend on cells and steps that are fine enough, and does on coarse ones") {
+  const auto flux = [](double cell, double dt) {
+    constexpr std::size_t grains = 6000;
+    constexpr double phi = 0.02, w = 0.02;  // some 20 grains in the fine cells
+    Gas<2> gas(grains, phi / w, 1, 6);
+    gas.setup.weight = w;
+    const double side = gas.setup.domain.length[0];
+    // A strip 40 d high: some mean free paths.
+    constexpr double high = 40;
+    gas.setup.domain.length[0] = side * side / high;
+    gas.setup.domain.length[1] = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < grains; ++i) {
+      gas.grains.position[0][i] *= side / high;
+      gas.grains.position[1][i] = 0.5 + gas.grains.position[1][i] / side * (high - 1);
+    }
+    auto low = floor_wall<2>(), top = floor_wall<2>();
+    top.point[1] = high, top.normal[1] = -1;
+    low.surface.temperature = 2, top.surface.temperature = 0.5;
+    gas.setup.walls = {low, top};
+    gas.setup.dense = Dense::none;
+    gas.setup.cell = cell, gas.setup.time_step = dt;
+    DsmcEngine<2> engine(gas.grains, gas.setup);
+    engine.advance_to(std::llround(300 / dt));
+    // Mean upward flux of energy of all grains, Σ ½ m v² v_y.
+    double sum = 0;
+    constexpr int looks = 300;
+    for (int k = 1; k <= looks; ++k) {
+      engine.advance_to(std::llround((300 + 4.0 * k) / dt));
+      const auto& v = engine.state().velocity;
+      for (std::size_t i = 0; i < grains; ++i)
+        sum += 0.5 * (v[0][i] * v[0][i] + v[1][i] * v[1][i]) * v[1][i] / looks / grains;
+    }
+    return sum;
+  };
+  const double fine = flux(4, 1), finer = flux(2.5, 0.5), coarse_cell = flux(39, 1),
+               coarse_step = flux(4, 20);
+  CAPTURE(fine, finer, coarse_cell, coarse_step);
+  CHECK(fine == Approx(finer).epsilon(0.02));
+  CHECK(std::abs(coarse_cell / fine - 1) > 0.1);
+  CHECK(std::abs(coarse_step / fine - 1) > 0.1);
 }
 
 namespace {

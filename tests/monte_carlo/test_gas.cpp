@@ -45,9 +45,10 @@ Estimate pressure(int side, double phi, bool serial, int samples, std::uint64_t 
 TEST_CASE("the pressure of hard discs is that of their virial series, drawn serially or by blocks") {
   for (const double phi : {0.2, 0.5})
     for (const bool serial : {true, false}) {
-      const auto z = pressure<2>(24, phi, serial, 1200);
+      const auto z = pressure<2>(24, phi, serial, 4000);
       CAPTURE(phi, serial, z.mean, *z.error, virial_discs(phi));
-      CHECK(z.mean == Approx(virial_discs(phi)).epsilon(0.01));
+      CHECK(z.mean == Approx(virial_discs(phi)).epsilon(0.005));
+      CHECK(*z.error < 0.0025 * z.mean);
     }
 }
 
@@ -77,9 +78,10 @@ TEST_CASE("drawn serially and by blocks, g(r) is the same") {
 }
 
 TEST_CASE("the pressure of hard spheres is Carnahan's and Starling's") {
-  for (const double phi : {0.2, 0.4}) {
-    const auto z = pressure<3>(9, phi, false, 500);
+  for (const double phi : {0.2, 0.45}) {
+    const auto z = pressure<3>(9, phi, false, 2000);
     CAPTURE(phi, z.mean, *z.error, carnahan_starling(phi));
-    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.012));
+    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.005));
+    CHECK(*z.error < 0.0025 * z.mean);
   }
 }

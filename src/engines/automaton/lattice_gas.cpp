@@ -11,41 +11,55 @@ namespace {
 /// Items of random numbers besides rows: walls' sites, and sites at the start.
 constexpr std::uint64_t for_walls = std::uint64_t{1} << 31;
 
-/// Streaming of a row: each bit comes from the site that lies against its direction.
+/// Streaming of a plane of a row: every bit to its neighbour, or as it is. `in` is what comes in at the end that is left
+/// free; bits that leave the columns are lost.
 struct Stream {
-  const Site *here, *below, *above;
-  Site* to;
-  std::size_t columns;
-  std::ptrdiff_t odd;  // 1 in odd rows, which are shifted to the right
+  const std::uint64_t* from;
+  std::uint64_t* to;
+  std::size_t words, columns;
+  int step;  // +1: to the right, −1: to the left
+  bool in;
 
   void operator()() const {
-    CHUTE_VECTOR_LOOP
-    for (std::size_t x = 0; x < columns; ++x) {
-      const auto at = static_cast<std::ptrdiff_t>(x);
-      const unsigned moved = (here[at - 1] & 1u) | (below[at - 1 + odd] & 2u) | (below[at + odd] & 4u) |
-                             (here[at + 1] & 8u) | (above[at + odd] & 16u) | (above[at - 1 + odd] & 32u);
-      to[at] = static_cast<Site>(moved | (here[at] & 192u));
+    if (step == 0) {
+      for (std::size_t w = 0; w < words; ++w) to[w] = from[w];
+      return;
     }
+    const std::size_t last = (columns - 1) / sites_of_word, bit = (columns - 1) % sites_of_word;
+    if (step > 0) {
+      to[0] = from[0] << 1 | std::uint64_t{in};
+      CHUTE_VECTOR_LOOP
+      for (std::size_t w = 1; w < words; ++w) to[w] = from[w] << 1 | from[w - 1] >> 63;
+      if (const auto beyond = columns / sites_of_word; beyond < words)
+        to[beyond] &= ~(std::uint64_t{1} << columns % sites_of_word);
+      return;
+    }
+    CHUTE_VECTOR_LOOP
+    for (std::size_t w = 0; w + 1 < words; ++w) to[w] = from[w] >> 1 | from[w + 1] << 63;
+    to[words - 1] = from[words - 1] >> 1;
+    to[last] |= std::uint64_t{in} << bit;
   }
 };
+
+std::size_t words_for(int columns) {
+  const auto sites = static_cast<std::size_t>(columns);
+  return (sites + sites_of_block - 1) / sites_of_block * words_of_block;
+}
 
 }  // namespace
 
 LatticeGas::LatticeGas(const LatticeGasSetup& setup)
     : setup_(setup),
-      table_(setup.rule),
+      rule_(setup.rule),
       links_(cut_links(setup.lattice, setup.walls)),
-      stride_(static_cast<std::size_t>(setup.lattice.columns) + 2 * edge),
-      now_(stride_ * static_cast<std::size_t>(setup.lattice.rows), 0),
+      stride_(words_for(setup.lattice.columns)),
+      now_(stride_ * planes * static_cast<std::size_t>(setup.lattice.rows), 0),
       next_(now_.size(), 0),
       empty_(stride_, 0),
       row_lost_(static_cast<std::size_t>(setup.lattice.rows)),
       row_crossed_(row_lost_.size()),
-      words_(static_cast<std::size_t>(setup.threads)),
       team_(setup.threads) {
   for (const auto& row : links_.of_row) kept_.emplace_back(row.size());
-  const auto columns = static_cast<std::size_t>(setup_.lattice.columns);
-  for (auto& words : words_) words.resize((columns + words_at_once - 1) / words_at_once * words_at_once);
   fill();
 }
 
@@ -69,7 +83,7 @@ void LatticeGas::update(std::int64_t update) {
     return Part{rows * k / team_.size(), rows * (k + 1) / team_.size()};
   };
   team_.run([&](std::size_t k) {
-    for (auto y = part(k).begin; y < part(k).end; ++y) collide_row(static_cast<int>(y), update, words_[k]);
+    for (auto y = part(k).begin; y < part(k).end; ++y) collide_row(static_cast<int>(y), update);
   });
   team_.run([&](std::size_t k) {
     for (auto y = part(k).begin; y < part(k).end; ++y) stream_row(static_cast<int>(y));
@@ -79,41 +93,32 @@ void LatticeGas::update(std::int64_t update) {
   for (std::size_t y = 0; y < rows; ++y) lost_ += row_lost_[y], crossed_ += row_crossed_[y];
 }
 
-void LatticeGas::collide_row(int y, std::int64_t update, std::span<std::uint32_t> words) {
-  philox_row(isa_, setup_.seed, static_cast<std::uint32_t>(y), static_cast<std::uint64_t>(update), words);
-  const auto columns = static_cast<std::size_t>(setup_.lattice.columns);
-  Site* sites = &now_[row(y) + edge];
-  unsigned lost = 0;
-  for (std::size_t x = 0; x < columns; ++x) {
-    const unsigned entry = table_(sites[x], words[x]);
-    sites[x] = static_cast<Site>(entry);
-    lost += entry >> 8;
-  }
-  row_lost_[static_cast<std::size_t>(y)] = lost;
+void LatticeGas::collide_row(int y, std::int64_t update) {
+  row_lost_[static_cast<std::size_t>(y)] =
+      rule_.apply(isa_, {&now_[index(y, 0, 0)], stride_, stride_ / words_of_block},
+                  {setup_.seed, static_cast<std::uint32_t>(y), static_cast<std::uint64_t>(update)});
   turn_back(y, update);
-  // The other end's sites, for whoever streams past the ends. Closed ends have walls, which let nobody out.
-  sites[-1] = setup_.lattice.periodic_x ? sites[columns - 1] : Site{0};
-  sites[columns] = setup_.lattice.periodic_x ? sites[0] : Site{0};
-  const int out = std::popcount(sites[columns - 1] & 1u), in = std::popcount(sites[0] & 8u);
   // Of the slanted links over x = 0 each belongs to the row from which it leaves.
-  const unsigned right = y & 1 ? 1u << 1 | 1u << 5 : 0u, left = y & 1 ? 0u : 1u << 2 | 1u << 4;
-  row_crossed_[static_cast<std::size_t>(y)] =
-      setup_.lattice.periodic_x
-          ? out - in + std::popcount(sites[columns - 1] & right) - std::popcount(sites[0] & left)
-          : 0;
+  const int last = setup_.lattice.columns - 1;
+  std::int64_t crossed = has(last, y, 0) - has(0, y, 3);
+  if (y & 1)
+    crossed += has(last, y, 1) + has(last, y, 5);
+  else
+    crossed -= has(0, y, 2) + has(0, y, 4);
+  row_crossed_[static_cast<std::size_t>(y)] = setup_.lattice.periodic_x ? crossed : 0;
 }
 
 /// Takes movers that a wall stops out of the row, and keeps how they come back.
 void LatticeGas::turn_back(int y, std::int64_t update) {
   const auto& at_walls = links_.of_row[static_cast<std::size_t>(y)];
   auto& kept = kept_[static_cast<std::size_t>(y)];
-  Site* sites = &now_[row(y) + edge];
   for (std::size_t w = 0; w < at_walls.size(); ++w) {
     const auto& wall = at_walls[w];
-    const unsigned stopped = sites[wall.x] & wall.blocked;
+    const Site site = at(wall.x, y);
+    const unsigned stopped = site & wall.blocked;
     kept[w] = 0;
     if (!stopped) continue;
-    sites[wall.x] = static_cast<Site>(sites[wall.x] & ~stopped);
+    set(wall.x, y, static_cast<Site>(site & ~stopped));
     bool reversed = wall.mirror < 0;
     if (!reversed) {
       Random random(setup_.seed, Purpose::engine, for_walls + setup_.lattice.index(wall.x, y),
@@ -127,68 +132,58 @@ void LatticeGas::turn_back(int y, std::int64_t update) {
   }
 }
 
+/// Where a plane's bits come from: the row below, this or above, and whether x shifts there. Odd rows are shifted by half a
+/// site, so along slanted links x shifts out of even rows to the left and out of odd ones to the right.
 void LatticeGas::stream_row(int y) {
-  const int rows = setup_.lattice.rows;
-  // Beyond closed ends nobody comes in: links there are cut, so what the other end's row holds must not be seen.
-  const auto line = [&](int at) -> const Site* {
-    if (at < 0 || at >= rows) {
-      if (!setup_.lattice.periodic_y) return nullptr;
-      at += at < 0 ? rows : -rows;
-    }
-    return &now_[row(at) + edge];
-  };
-  const Site *below = line(y - 1), *above = line(y + 1);
-  Site* to = &next_[row(y) + edge];
-  run_kernel(isa_, Stream{&now_[row(y) + edge], below ? below : &empty_[edge], above ? above : &empty_[edge],
-                          to, static_cast<std::size_t>(setup_.lattice.columns), y & 1});
+  constexpr std::array<int, planes> from_row{0, -1, -1, 0, 1, 1, 0, 0};
+  const int rows = setup_.lattice.rows, last = setup_.lattice.columns - 1, odd = y & 1;
+  const std::array<int, planes> step{1, 1 - odd, -odd, -1, -odd, 1 - odd, 0, 0};
+  for (int k = 0; k < planes; ++k) {
+    const auto plane_of = static_cast<std::size_t>(k);
+    int from = y + from_row[plane_of];
+    // Beyond closed ends nobody comes in: links there are cut, so what the other end's row holds must not be seen.
+    const bool outside = from < 0 || from >= rows;
+    if (outside) from += from < 0 ? rows : -rows;
+    const bool seen = !outside || setup_.lattice.periodic_y;
+    const bool in = seen && setup_.lattice.periodic_x && has(step[plane_of] > 0 ? last : 0, from, k);
+    run_kernel(isa_, Stream{seen ? plane(from, k) : empty_.data(), &next_[index(y, k, 0)], stride_,
+                            static_cast<std::size_t>(setup_.lattice.columns), step[plane_of], in});
+  }
   const auto& at_walls = links_.of_row[static_cast<std::size_t>(y)];
   for (std::size_t w = 0; w < at_walls.size(); ++w)
-    to[at_walls[w].x] = static_cast<Site>(to[at_walls[w].x] | kept_[static_cast<std::size_t>(y)][w]);
+    if (const unsigned back = kept_[static_cast<std::size_t>(y)][w])
+      for (int k = 0; k < directions; ++k)
+        next_[index(y, k, at_walls[w].x)] |= std::uint64_t{back >> k & 1u} << (at_walls[w].x & 63);
 }
 
-namespace {
-struct Totals {
-  std::int64_t mass = 0, moving = 0;
-  std::array<std::int64_t, directions> along{};
-  Vec<2> momentum() const {
-    Vec<2> sum{};
-    for (int k = 0; k < directions; ++k)
-      sum = sum + static_cast<double>(along[static_cast<std::size_t>(k)]) * unit_step(k);
-    return sum;
-  }
-};
-Totals totals_of(std::span<const std::int64_t, 256> count) {
+LatticeGas::Totals LatticeGas::totals() const {
+  std::array<std::int64_t, planes> number{};
+  for (int y = 0; y < setup_.lattice.rows; ++y)
+    for (int k = 0; k < planes; ++k)
+      for (std::size_t w = 0; w < stride_; ++w)
+        number[static_cast<std::size_t>(k)] += std::popcount(plane(y, k)[w]);
   Totals totals;
-  for (unsigned s = 0; s < site_states; ++s) {
-    const auto n = count[s];
-    totals.moving += n * std::popcount(s & 63u);
-    totals.mass += n * (std::popcount(s & 63u) + static_cast<int>(s >> 6));
-    for (unsigned k = 0; k < directions; ++k) totals.along[k] += n * (s >> k & 1u);
+  for (int k = 0; k < directions; ++k) {
+    const auto along = number[static_cast<std::size_t>(k)];
+    totals.moving += along;
+    totals.momentum = totals.momentum + static_cast<double>(along) * unit_step(k);
   }
+  totals.resting = number[6] + 2 * number[7];
   return totals;
-}
-}  // namespace
-
-static std::array<std::int64_t, 256> census(const LatticeGas& gas) {
-  std::array<std::int64_t, 256> count{};
-  for (int y = 0; y < gas.lattice().rows; ++y)
-    for (int x = 0; x < gas.lattice().columns; ++x) ++count[gas.at(x, y)];
-  return count;
 }
 
 std::vector<std::pair<std::string, double>> LatticeGas::tells() const {
-  const auto totals = totals_of(census(*this));
-  const Vec<2> p = totals.momentum();
-  return {{"mass", static_cast<double>(totals.mass)},
-          {"moving", static_cast<double>(totals.moving)},
-          {"momentum_x", p[0]},
-          {"momentum_y", p[1]},
+  const auto all = totals();
+  return {{"mass", static_cast<double>(all.moving + all.resting)},
+          {"moving", static_cast<double>(all.moving)},
+          {"momentum_x", all.momentum[0]},
+          {"momentum_y", all.momentum[1]},
           {"flux", static_cast<double>(crossed_)},
           {"dissipated", 0.5 * static_cast<double>(lost_)}};
 }
 
 Model::Energy LatticeGas::energy() const {
-  return {0.5 * static_cast<double>(totals_of(census(*this)).moving), 0.5 * static_cast<double>(lost_)};
+  return {0.5 * static_cast<double>(totals().moving), 0.5 * static_cast<double>(lost_)};
 }
 
 void LatticeGas::show(Grains<2>& grains) const {

@@ -105,31 +105,4 @@ std::vector<Outcome> outcomes(Site site, const SiteRule& rule) {
   return all;
 }
 
-SiteTable::SiteTable(const SiteRule& rule) : first_(site_states * 256) {
-  constexpr double words = 0x1p32;
-  for (int s = 0; s < site_states; ++s) {
-    auto& bounds = bounds_[static_cast<std::size_t>(s)];
-    double below = 0;
-    for (const auto& o : outcomes(static_cast<Site>(s), rule)) {
-      below += o.probability;
-      bounds.push_back({static_cast<std::uint64_t>(std::llround(below * words)),
-                        static_cast<std::uint16_t>(o.site | o.lost << 8)});
-    }
-    bounds.back().below = std::uint64_t{1} << 32;
-    for (std::uint64_t bin = 0; bin < 256; ++bin) {
-      const auto low = static_cast<std::uint32_t>(bin << 24),
-                 high = static_cast<std::uint32_t>((bin << 24) + 0xffffff);
-      const auto entry = looked_up(static_cast<Site>(s), low);
-      first_[static_cast<std::size_t>(s) << 8 | bin] =
-          entry == looked_up(static_cast<Site>(s), high) ? entry : shared;
-    }
-  }
-}
-
-std::uint16_t SiteTable::looked_up(Site site, std::uint32_t word) const {
-  for (const auto& bound : bounds_[site])
-    if (word < bound.below) return bound.entry;
-  return site;  // not reached: the last bound is above all words
-}
-
 }  // namespace chute::automaton

@@ -43,27 +43,4 @@ struct Outcome {
 /// Rev. E 49, R1796 (1994)).
 std::vector<Outcome> outcomes(Site site, const SiteRule& rule);
 
-/// The same as a table: a random word says what a site becomes. Words are sorted into 256 bins by their upper byte; a bin
-/// that one outcome has for itself tells it at once, and the few others compare the whole word, so that probabilities are
-/// kept to 2⁻³².
-class SiteTable {
- public:
-  explicit SiteTable(const SiteRule& rule);
-  /// The new site in the lower byte, movers lost in the upper.
-  std::uint16_t operator()(Site site, std::uint32_t word) const {
-    const std::uint16_t entry = first_[static_cast<std::size_t>(site) << 8 | word >> 24];
-    return entry != shared ? entry : looked_up(site, word);
-  }
-
- private:
-  static constexpr std::uint16_t shared = 0xffff;
-  struct Bound {
-    std::uint64_t below;  // words under this
-    std::uint16_t entry;
-  };
-  std::vector<std::uint16_t> first_;
-  std::array<std::vector<Bound>, site_states> bounds_;
-  std::uint16_t looked_up(Site site, std::uint32_t word) const;
-};
-
 }  // namespace chute::automaton
