@@ -19,6 +19,14 @@ double virial_discs(double phi) {
   for (const double b : B) z += b * power, power *= x;
   return z + B.back() * tail * power / (1 - tail * x);
 }
+/// The same of hard spheres, in powers of φ; the last ratio goes on.
+double virial_spheres(double phi) {
+  constexpr std::array B{4.0, 10.0, 18.364768, 28.22445, 39.81515, 53.3444, 68.5375, 85.8128, 105.775};
+  constexpr double ratio = B[8] / B[7];
+  double z = 1, power = phi;
+  for (const double b : B) z += b * power, power *= phi;
+  return z + B.back() * ratio * power / (1 - ratio * phi);
+}
 double carnahan_starling(double phi) {
   return (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
 }
@@ -77,11 +85,13 @@ TEST_CASE("drawn serially and by blocks, g(r) is the same") {
   CHECK(square / static_cast<double>(serial.size()) < 2.5);
 }
 
-TEST_CASE("the pressure of hard spheres is Carnahan's and Starling's") {
-  for (const double phi : {0.2, 0.45}) {
-    const auto z = pressure<3>(9, phi, false, 2000);
-    CAPTURE(phi, z.mean, *z.error, carnahan_starling(phi));
-    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.005));
+// Carnahan's and Starling's formula lies 0.25 % below the series at φ = 0.3, where its fourth coefficient shows.
+TEST_CASE("the pressure of hard spheres is that of their virial series, and Carnahan's and Starling's") {
+  for (const double phi : {0.2, 0.4}) {
+    const auto z = pressure<3>(9, phi, false, 2500);
+    CAPTURE(phi, z.mean, *z.error, virial_spheres(phi), carnahan_starling(phi));
+    CHECK(z.mean == Approx(virial_spheres(phi)).epsilon(0.005));
+    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.006));
     CHECK(*z.error < 0.0025 * z.mean);
   }
 }
