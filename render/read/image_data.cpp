@@ -27,7 +27,7 @@ GridField field_of(const ImageData& data, const std::string& name, const std::fi
   }
   const auto take = [&](const PointArray& found, bool of_cells) {
     GridField field;
-    field.units = data.units, field.time = data.time;
+    field.units = data.units, field.clock = data.clock, field.time = data.time;
     for (std::size_t k = 0; k < 3; ++k) {
       const bool cells = of_cells && data.points[k] > 1;
       field.count[k] = cells ? data.points[k] - 1 : data.points[k];

@@ -13,6 +13,7 @@ namespace chute::read {
 struct ImageData {
   std::optional<double> time;  ///< field data `TimeValue`, if the file says
   std::string units;           ///< "SI", "reduced", or empty if the file does not say
+  std::string clock;           ///< what the time counts, "updates"; empty: it is a time
   std::array<double, 3> origin{}, spacing{1, 1, 1};
   std::array<int, 3> points{1, 1, 1};  ///< of the grid; cells are one less along each axis, but at least one
   std::vector<PointArray> cell_arrays, point_arrays;
@@ -22,7 +23,7 @@ struct ImageData {
 struct GridField {
   std::array<double, 3> first{}, step{1, 1, 1};  ///< place of the first value, and from each to the next
   std::array<int, 3> count{1, 1, 1};
-  std::string units;
+  std::string units, clock;
   std::optional<double> time;
   std::vector<double> values;  ///< x fastest
 };

@@ -290,6 +290,9 @@ ImageData parse_image_data(std::string bytes, const std::filesystem::path& path)
     if (auto* units = vtkStringArray::SafeDownCast(facts->GetAbstractArray(fields::units.data()));
         units && units->GetNumberOfValues() > 0)
       result.units = units->GetValue(0);
+    if (auto* clock = vtkStringArray::SafeDownCast(facts->GetAbstractArray(fields::clock.data()));
+        clock && clock->GetNumberOfValues() > 0)
+      result.clock = clock->GetValue(0);
   } catch (const std::bad_alloc&) {
     fail("damaged: it asks for more memory than there is");
   } catch (const std::runtime_error& error) {

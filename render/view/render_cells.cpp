@@ -23,7 +23,7 @@ namespace {
 /// A field in the plane: what is drawn.
 struct Slab {
   std::vector<double> x, y, values;
-  std::string units;
+  std::string units, clock;
   std::optional<double> time;
   bool space = false;  ///< it was averaged over y, and y is z
 };
@@ -39,7 +39,7 @@ Slab flattened(const read::GridField& f) {
   const std::size_t up = f.count[2] > 1 ? 2 : 1;
   const auto nx = static_cast<std::size_t>(f.count[0]), ny = static_cast<std::size_t>(f.count[1]),
              nz = static_cast<std::size_t>(f.count[2]);
-  Slab slab{places(f, 0), places(f, up), {}, f.units, f.time, up == 2};
+  Slab slab{places(f, 0), places(f, up), {}, f.units, f.clock, f.time, up == 2};
   if (up == 1) {
     slab.values = f.values;
     return slab;
@@ -106,7 +106,9 @@ plot::Figure figure_of(const Slab& slab, const Look& look, const FrameStyle& sty
   panel.x.label = "$x$" + unit;
   panel.y.label = (slab.space ? "$z$" : "$y$") + unit;
   panel.x.min = look.x_low, panel.x.max = look.x_high, panel.y.min = look.y_low, panel.y.max = look.y_high;
-  if (slab.time) panel.title = fmt::format("$t = {:.6g}$", *slab.time);
+  if (slab.time)
+    panel.title = slab.clock.empty() ? fmt::format("$t = {:.6g}$", *slab.time)
+                                     : fmt::format("{:.6g} {}", *slab.time, slab.clock);
   auto& map = panel.map.emplace();
   map.x = slab.x, map.y = slab.y, map.values = slab.values;
   map.low = look.low, map.high = look.high;

@@ -21,6 +21,13 @@ void add_number(vtkFieldData* to, std::string_view name, double value) {
   to->AddArray(array);
 }
 
+void add_text(vtkFieldData* to, std::string_view name, const std::string& text) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(std::string(name).c_str());
+  array->InsertNextValue(text);
+  to->AddArray(array);
+}
+
 }  // namespace
 
 std::string cells_vti(const CellFields& cells, const RunFacts& facts) {
@@ -40,10 +47,8 @@ std::string cells_vti(const CellFields& cells, const RunFacts& facts) {
       array->SetValue(static_cast<vtkIdType>(i), field.values[i]);
     data->GetCellData()->AddArray(array);
   }
-  vtkNew<vtkStringArray> units;
-  units->SetName(std::string(fields::units).c_str());
-  units->InsertNextValue(facts.units);
-  data->GetFieldData()->AddArray(units);
+  add_text(data->GetFieldData(), fields::units, facts.units);
+  if (facts.clock != "time") add_text(data->GetFieldData(), fields::clock, facts.clock);
   add_number(data->GetFieldData(), fields::time_value, cells.time);
   vtkNew<vtkXMLImageDataWriter> writer;
   writer->SetInputData(data);
