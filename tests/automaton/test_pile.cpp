@@ -69,7 +69,8 @@ TEST_CASE("avalanches are L large in the mean") {
 }
 
 // P(s) = s^(−τ) G(s/L^D) has moments ⟨s^q⟩ ~ L^(D(1 + q − τ)). With ⟨s⟩ = L that is D(2 − τ) = 1, so that ⟨s²⟩ ~ L^(1 + D). Published:
-// τ = 1.55, D = 2.25 (Christensen et al. 1996).
+// τ = 1.55, D = 2.25 (Christensen et al. 1996). Small piles have a smaller D: from L = 48 and 192 it comes out as 2.198, outside
+// of the margin.
 TEST_CASE("avalanches grow with the pile as published: D = 2.25, τ = 1.55") {
   const auto square = [](std::int64_t L) {
     auto pile = settled(L, 2 * L * L, 3);

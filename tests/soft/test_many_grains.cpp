@@ -63,6 +63,16 @@ void check_same(const Grains<D>& grains, const soft::SoftSetup<D>& with, std::in
   }
 }
 
+/// The same pairs in the same order, and the same shear but for the order of sums.
+void check_same_contacts(const std::vector<Contact>& a, const std::vector<Contact>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    REQUIRE(a[k].a == b[k].a);
+    REQUIRE(a[k].b == b[k].b);
+    CHECK(a[k].shear_force == Approx(b[k].shear_force).margin(1e-3));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("several steps at once give the bytes of steps one by one") {
@@ -143,13 +153,7 @@ TEST_CASE("a sorted engine shows its grains by id") {
       moved = moved || engine.id_at(i) != i;
     }
     CHECK(moved);
-    const auto c = plain.contacts(), d = engine.contacts();
-    REQUIRE(c.size() == d.size());
-    for (std::size_t k = 0; k < c.size(); ++k) {
-      CHECK(c[k].a == d[k].a);
-      CHECK(c[k].b == d[k].b);
-      CHECK(c[k].shear_force == Approx(d[k].shear_force).margin(1e-3));
-    }
+    check_same_contacts(plain.contacts(), engine.contacts());
     CHECK(engine.energy().gravity_work == Approx(plain.energy().gravity_work));
     CHECK(engine.energy().normal_loss == Approx(plain.energy().normal_loss));
   }
@@ -215,16 +219,11 @@ void check_memories(const Grains<D>& grains, soft::SoftSetup<D> s) {
       for (std::size_t k = 0; k < D; ++k) REQUIRE(b.velocity[k][i] == Approx(a.velocity[k][i]).margin(1e-6));
       for (std::size_t k = 0; k < turns<D>; ++k) REQUIRE(b.spin[k][i] == Approx(a.spin[k][i]).margin(1e-6));
     }
-    const auto c = plain.contacts(), d = engine.contacts();
-    REQUIRE(c.size() == d.size());
-    for (std::size_t k = 0; k < c.size(); ++k) {
-      REQUIRE(c[k].a == d[k].a);
-      REQUIRE(c[k].b == d[k].b);
-      CHECK(c[k].shear_force == Approx(d[k].shear_force).margin(1e-3));
-      slipped = std::max(slipped, std::abs(c[k].shear_force));
-    }
+    const auto contacts = plain.contacts();
+    check_same_contacts(contacts, engine.contacts());
+    for (const auto& contact : contacts) slipped = std::max(slipped, std::abs(contact.shear_force));
     CHECK(moved > a.moving / 2);
-    CHECK(c.size() > 30);
+    CHECK(contacts.size() > 30);
     CHECK(slipped > 10);
     CHECK(engine.energy().shear_loss == Approx(plain.energy().shear_loss));
     CHECK(engine.energy().elastic == Approx(plain.energy().elastic));
