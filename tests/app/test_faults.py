@@ -89,6 +89,14 @@ class Faults(unittest.TestCase):
             self.assertIn("warning: " + says, self.run_chute("run", *self.scene(**{key: "5"}), "-o", "out", "--force").stderr)
         self.assertNotIn("warning", self.run_chute("check", *self.scene()).stdout)
 
+    def test_grains_that_would_sink_into_each_other_are_told(self):
+        # With k = 5 m g/d a grain sinks m g/k, a fifth of d, or a little else with the damping.
+        said = self.run_chute("check", *self.scene(contact__normal__stiffness="5", incline__gravity="1")).stdout
+        self.assertRegex(said, r"warning: a grain sinks 0\.[1-4]\d* diameters into another one under its own weight")
+        said = self.run_chute("check", *self.scene(grains__start__velocity="1e4")).stdout
+        self.assertRegex(said, r"warning: the fastest grains of the start overlap by \S+ diameters")
+        self.assertNotIn("diameters", self.run_chute("check", *self.scene()).stdout)
+
     def test_more_output_than_a_disk_takes(self):
         for every in ("1e-8", "1e-9"):
             said = self.refused("run", *self.scene(output__series__every=every), "-o", "out")

@@ -137,17 +137,18 @@ std::vector<std::string> SoftMethod::warnings(const engines::Setting& s) const {
         "engine.time_step = {:.3g} is {:.2g} contact times: a contact takes t_n = {:.3g}, and needs steps of {:.2g} or less",
         dt, dt / t_n, t_n, t_n / fewest_steps));
   // A contact between equal grains is a spring of k = m_eff (π/t_n)²: what it gives way by at a speed, and under a weight.
-  constexpr double rigid = 0.1;  // of a diameter; beyond it overlaps are no small deformations
+  constexpr double rigid = 0.1;   // of a diameter; beyond it overlaps are no small deformations
+  constexpr double small = 0.05;  // of a diameter: what the advice leads to with a linear spring
   const double frequency = std::numbers::pi / t_n, d = s.resolved_diameter();
   const double at_impact = s.fastest / frequency / d, at_rest = 2 * s.gravity / (frequency * frequency) / d;
   if (at_impact > rigid)
     told.push_back(fmt::format(
-        "the fastest grains of the start overlap by {:.2g} diameters when they meet: give a stiffness {:.2g} times as large, or start slower",
-        at_impact, std::pow(at_impact / rigid, 2) * 4));
+        "the fastest grains of the start overlap by {:.2g} diameters when they meet: give a stiffness about {:.2g} times as large, or start slower",
+        at_impact, std::pow(at_impact / small, 2)));
   if (at_rest > rigid)
     told.push_back(fmt::format(
-        "a grain sinks {:.2g} diameters into another one under its own weight: give a stiffness {:.2g} times as large",
-        at_rest, at_rest / rigid * 10));
+        "a grain sinks {:.2g} diameters into another one under its own weight: give a stiffness about {:.2g} times as large",
+        at_rest, at_rest / small));
   const auto decay = slip_decay(s, dt);
   const auto* law = std::get_if<laws::RegularisedCoulomb>(&s.contact.tangential);
   if (!decay || !law || *decay < begins || (!told.empty())) return told;
