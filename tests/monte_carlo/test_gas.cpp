@@ -31,13 +31,19 @@ double carnahan_starling(double phi) {
   return (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
 }
 
-/// Z from samples of a run.
+/// Kolafa's correction of that formula (Boublík & Nezbeda, Collect. Czech. Chem. Commun. 51, 2301 (1986)), which follows
+/// simulations of dense fluids within 0.1 %.
+double kolafa(double phi) {
+  return (1 + phi + phi * phi - 2.0 / 3 * std::pow(phi, 3) * (1 + phi)) / std::pow(1 - phi, 3);
+}
+
+/// Z from samples of a run, so many sweeps apart.
 template <int D>
-Estimate pressure(int side, double phi, bool serial, int samples, std::uint64_t seed = 1) {
+Estimate pressure(int side, double phi, bool serial, int samples, int between = 4) {
   Gas<D> gas(side, phi);
-  gas.setup.serial = serial, gas.setup.seed = seed;
+  gas.setup.serial = serial;
   MonteCarloEngine<D> engine(gas.grains, gas.setup);
-  constexpr int settle = 600, between = 4;
+  constexpr int settle = 600;
   measure::PairDistances pairs(1.5, 0.01, {settle, settle + between * static_cast<double>(samples), 10});
   for (int s = 0; s < samples; ++s) {
     engine.advance_to(settle + between * s);
@@ -94,4 +100,16 @@ TEST_CASE("the pressure of hard spheres is that of their virial series, and Carn
     CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.006));
     CHECK(*z.error < 0.0025 * z.mean);
   }
+}
+
+// At φ = 0.45 the virial series, cut at its tenth coefficient, is known to 0.1 % only, and Carnahan's and Starling's formula lies 0.2 %
+// low, so Kolafa's stands between. The measurement itself errs by less: with g(r) of Percus and Yevick, in closed form, the cubic
+// in ln g makes g at contact 0.07 % too small; and of N = 729 spheres Z is 0.09 % too large, as Z + (Z − 1)/N + φ/(2N)
+// d ln S(0)/dφ, whose first correction is that pairs are N (N − 1)/2 and not N²/2, the second that their number is fixed.
+TEST_CASE("the pressure of a dense fluid of hard spheres is the published one") {
+  constexpr double phi = 0.45;
+  const auto z = pressure<3>(9, phi, false, 3000, 16);
+  CAPTURE(z.mean, *z.error, virial_spheres(phi), carnahan_starling(phi), kolafa(phi));
+  CHECK(z.mean == Approx(kolafa(phi)).epsilon(0.006));
+  CHECK(*z.error < 0.003 * z.mean);
 }
