@@ -151,3 +151,13 @@ TEST_CASE("cells reach down to the bed, and their volume is what centres can be 
   // (√3/4 + π/6)/1 = 0.9566, so of a cell from 0 to 2 over two beads 2 × (2 − 0.9566) is left.
   CHECK(cells.volume(cells.cell_of({{5, 1}})) == Approx(2 * (2 - 0.9566)).epsilon(0.05));
 }
+
+// So many cells overflowed their number, or took all memory.
+TEST_CASE("cells that are far finer than grains are many are refused") {
+  for (const double cell : {1e-30, 1e-3}) {
+    Gas<2> gas(100, 0.1);
+    gas.setup.cell = cell;
+    CHECK_THROWS_WITH((DsmcEngine<2>(gas.grains, gas.setup)),
+                      Catch::Contains("engine.cell") && Catch::Contains("cells"));
+  }
+}

@@ -133,3 +133,14 @@ TEST_CASE("grains that overlap at the start are refused") {
   add_grain<2>(grains, {{0.9, 0.5}});
   CHECK_THROWS_WITH((MonteCarloEngine<2>(grains, above_floor<2>())), Catch::Contains("overlaps another"));
 }
+
+// A move longer than a period was brought back by one period only, and the grain then lay where no other found it.
+TEST_CASE("trial moves that could go round the box are refused") {
+  auto setup = above_floor<2>();
+  setup.domain.length[0] = 4;
+  setup.step = 2.1;
+  Grains<2> grains;
+  add_grain<2>(grains, {{0, 1}});
+  CHECK_THROWS_WITH((MonteCarloEngine<2>(grains, setup)),
+                    Catch::Contains("engine.step") && Catch::Contains("period"));
+}

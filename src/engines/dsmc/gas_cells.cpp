@@ -1,9 +1,13 @@
 #include "engines/dsmc/gas_cells.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "common/error.hpp"
 #include "engines/dsmc/hard_gas.hpp"
 
 namespace chute::dsmc {
@@ -15,8 +19,14 @@ constexpr double newest = 0.02;
 /// Places along each direction at which a cell is asked whether it is free.
 constexpr int probes = 8;
 
-/// Cells per grain at most: beyond, where hardly a grain is, they fly freely.
+/// Cells per grain at most: beyond, where hardly a grain is, they fly freely. At the start a finer grid is refused.
 constexpr std::size_t most_per_grain = 20, fewest_cells = 100000;
+
+[[noreturn]] void too_fine(double cells) {
+  throw InputError(
+      fmt::format("engine.cell: makes {:.3g} cells, at most {} and {} a grain are possible; use a larger one",
+                  cells, fewest_cells, most_per_grain));
+}
 
 }  // namespace
 
@@ -33,6 +43,9 @@ GasCells<D>::GasCells(const Grains<D>& grains, const DsmcSetup<D>& setup, const 
       std::all_of(grains.radius.begin(), grains.radius.begin() + static_cast<std::ptrdiff_t>(grains.moving),
                   [&](double R) { return R == grains.radius[0]; });
   for (int k = 0; k < D; ++k) lay(k, grains);
+  double cells = 1;
+  for (const int n : many_) cells *= n;
+  if (cells > static_cast<double>(std::max(fewest_cells, most_per_grain * grains.moving))) too_fine(cells);
   add_volumes();
   cell_.resize(grains.moving), order_.resize(grains.moving);
 }
@@ -41,8 +54,13 @@ GasCells<D>::GasCells(const Grains<D>& grains, const DsmcSetup<D>& setup, const 
 template <int D>
 void GasCells<D>::lay(int k, const Grains<D>& grains) {
   const auto a = static_cast<std::size_t>(k);
+  const auto cells_in = [&](double length) {
+    const double many = length / setup_.cell;
+    if (!(many < std::numeric_limits<int>::max() / 2)) too_fine(many);
+    return static_cast<int>(many);
+  };
   if (setup_.domain.periodic(k)) {
-    many_[a] = std::max(1, static_cast<int>(setup_.domain.length[k] / setup_.cell));
+    many_[a] = std::max(1, cells_in(setup_.domain.length[k]));
     low_[k] = setup_.domain.lower[k];
     side_[k] = setup_.domain.length[k] / many_[a];
   } else {
@@ -66,10 +84,10 @@ void GasCells<D>::lay(int k, const Grains<D>& grains) {
       floor = true;
     }
     if (floor && ceiling) {
-      many_[a] = std::max(1, static_cast<int>((high - low) / setup_.cell));
+      many_[a] = std::max(1, cells_in(high - low));
       side_[k] = (high - low) / many_[a];
     } else {
-      many_[a] = static_cast<int>((high - low) / setup_.cell) + 2;
+      many_[a] = cells_in(high - low) + 2;
       side_[k] = setup_.cell;
       if (!floor) low -= 0.5 * setup_.cell;
       if (ceiling) low = high - many_[a] * side_[k];

@@ -66,6 +66,12 @@ MonteCarloEngine<D>::MonteCarloEngine(Grains<D> grains, const MonteCarloSetup<D>
   for (auto& force : no_force_) force.assign(grains_.size(), 0);
   for (auto& velocity : grains_.velocity) std::fill_n(velocity.begin(), grains_.moving, 0.0);
   for (auto& spin : grains_.spin) std::fill_n(spin.begin(), grains_.moving, 0.0);
+  for (int k = 0; k < D; ++k)
+    if (delta_ > longest_part * setup_.domain.length[k])
+      throw InputError(fmt::format(
+          "engine.step: trial moves of {:.6g} are too long for a period of {:.6g}; at most {} of it "
+          "is possible",
+          delta_, setup_.domain.length[k], longest_part));
   wrap_into(setup_.domain, grains_);
   lay_cells();
   check_overlaps(true);

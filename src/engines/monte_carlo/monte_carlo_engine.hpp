@@ -9,6 +9,10 @@
 
 namespace chute::monte_carlo {
 
+/// Trial moves are no longer than this part of a period: a place outside of the box is brought back by one period, and
+/// grains that lie outside are not found by others.
+inline constexpr double longest_part = 0.5;
+
 /// What a shake is: grains are lifted, and then moved until they have come down.
 struct Shaking {
   double lift = 0;              ///< all grains, by this length

@@ -1,5 +1,7 @@
 #include "engines/monte_carlo/monte_carlo_method.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "engines/monte_carlo/monte_carlo_engine.hpp"
@@ -26,6 +28,17 @@ std::unique_ptr<Engine> made(World<D> world, const MonteCarloMethod& method, con
 
 }  // namespace
 
+std::optional<Refusal> too_long(double move, const std::array<double, 3>& size) {
+  for (const double length : size)
+    if (length > 0 && move > longest_part * length)
+      return Refusal{
+          "engine.step",
+          fmt::format("trial moves of {:.6g} are too long for a domain of {:.6g}; at most {} of it "
+                      "is possible",
+                      move, length, longest_part)};
+  return {};
+}
+
 Offers MonteCarloMethod::offers() const {
   return {.walls = true, .threads = order == Order::checkerboard, .clock = shakes() ? "shakes" : "sweeps"};
 }
@@ -35,7 +48,7 @@ std::optional<Refusal> MonteCarloMethod::refusal(const engines::Setting& s) cons
   if (const double* mu = laws::friction(shear); mu && *mu > 0)
     return Refusal{"contact.tangential.friction",
                    "monte-carlo knows no friction; use law = \"frictionless\""};
-  return {};
+  return too_long(trial_length * s.mean_diameter, s.size);
 }
 
 std::vector<Fact> MonteCarloMethod::facts(const engines::Setting& s) const {

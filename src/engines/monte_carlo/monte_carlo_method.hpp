@@ -5,6 +5,9 @@
 
 namespace chute::monte_carlo {
 
+/// Refused: trial moves of this length in a domain of this size, whose unknown lengths are 0.
+std::optional<Refusal> too_long(double move, const std::array<double, 3>& size);
+
 /// `engine.method = "monte-carlo"`.
 class MonteCarloMethod final : public Described<engines::Method, MonteCarloMethod> {
  public:
@@ -26,8 +29,9 @@ class MonteCarloMethod final : public Described<engines::Method, MonteCarloMetho
             "sweeps at the begin in which δ adapts to an acceptance of 40 %");
     a.choice("order", order, orders,
              "block by block, for threads; or one grain after the other, drawn from all");
-    a.value("lift", lift, non_negative, "shakes: height by which all grains are lifted, in mean diameters");
-    a.value("expand", expand, non_negative, "shakes: part by which heights are stretched");
+    a.value("lift", lift, between(0, 1000),
+            "shakes: height by which all grains are lifted, in mean diameters");
+    a.value("expand", expand, between(0, 10), "shakes: part by which heights are stretched");
     a.value("sweeps", sweeps, at_least(1), "most sweeps in a shake");
     a.value("settled", settled, non_negative,
             "a shake ends when the mean height falls by less than this in 100 sweeps, in mean diameters");

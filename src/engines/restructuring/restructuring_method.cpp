@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engines/monte_carlo/monte_carlo_method.hpp"
+
 namespace chute::restructuring {
 namespace {
 
@@ -38,6 +40,7 @@ std::optional<Refusal> RestructuringMethod::refusal(const engines::Setting& s) c
                    fmt::format("fill {:.3g} of the drum; laid discs need more room, at most {} is "
                                "possible",
                                part, densest)};
+  if (loosening.expand > 0) return monte_carlo::too_long(loosening.step * s.mean_diameter, s.size);
   return {};
 }
 

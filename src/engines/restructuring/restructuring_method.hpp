@@ -1,5 +1,7 @@
 #pragma once
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "common/angle.hpp"
 #include "engines/kind/method.hpp"
@@ -31,7 +33,12 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
     a.value("turn", turn,
             "angle, \"2 deg\" or \"0.03 rad\", by which a drum turns before every shake but the first; "
             "anticlockwise if positive");
-    if (turn) a.check(parse_angle(*turn).has_value(), "turn", "must be an angle, \"2 deg\" or \"0.03 rad\"");
+    if (turn) {
+      const auto angle = parse_angle(*turn);
+      a.check(angle.has_value(), "turn", "must be an angle, \"2 deg\" or \"0.03 rad\"");
+      a.check(!angle || std::abs(*angle) <= 2 * std::numbers::pi, "turn",
+              "must not be more than a whole turn");
+    }
     a.choice(
         "stabilise", stabilise, stabilises,
         "from the second shake on: a grain is laid on those that lie already; or among all, where they are now");
