@@ -86,7 +86,8 @@ void show_table(const Json& file) {
     fmt::print("  {:<18} {}\n", text_of(column["name"]), column_text(column));
 }
 
-void show_flow(const fs::path& path) {
+/// `clock`: what the run's time counts.
+void show_flow(const std::string& clock, const fs::path& path) {
   measure::Flow flow;
   try {
     flow = run::read_flow(path);
@@ -96,8 +97,8 @@ void show_flow(const fs::path& path) {
   const auto text = [](const Estimate& e) {
     return e.error ? fmt::format("{:.6g} ± {:.2g}", e.mean, *e.error) : fmt::format("{:.6g}", e.mean);
   };
-  fmt::print("the flow is {}; from t = {:.6g} on: v_x = {}, omega = {}\n", measure::name(flow.verdict),
-             flow.from, text(flow.v_x), text(flow.omega));
+  fmt::print("the flow is {}; from {} = {:.6g} on: v_x = {}, omega = {}\n", measure::name(flow.verdict),
+             clock == "time" ? std::string("t") : clock, flow.from, text(flow.v_x), text(flow.omega));
 }
 
 /// How far a run is that has not finished, and how to go on with it.
@@ -129,7 +130,7 @@ void show_account(const Json& record) {
 void show_run(const Json& run, const fs::path& path) {
   fmt::print("{}", run::read_record_text(path));
   show_progress(run["record"], path);
-  show_flow(path);
+  show_flow(run["record"].value("clock", "time"), path);
   show_account(run["record"]);
   for (const auto& file : run["files"]) {
     const bool folder = file.contains("files");

@@ -10,13 +10,17 @@ std::vector<std::string> RunContext::comments(std::string what) const {
   return {std::move(what), title + "; " + made_by};
 }
 
+std::string RunContext::moment(double time) const {
+  return fmt::format("{} = {:.6g}", offers.clock == "time" ? "t" : offers.clock, time);
+}
+
 std::vector<std::string> RunContext::average_note(const std::optional<double>& from, const Flow& flow) const {
   if (from || !std::isfinite(flow.from)) return {};
   const bool settled = flow.verdict == Verdict::steady || flow.verdict == Verdict::stopped;
   if (settled)
-    return {fmt::format("averages from t = {:.6g} on, when the flow was {}", flow.from, name(flow.verdict))};
-  return {fmt::format("no steady state was found (the flow is {}): averages from t = {:.6g} on all the same",
-                      name(flow.verdict), flow.from)};
+    return {fmt::format("averages from {} on, when the flow was {}", moment(flow.from), name(flow.verdict))};
+  return {fmt::format("no steady state was found (the flow is {}): averages from {} on all the same",
+                      name(flow.verdict), moment(flow.from))};
 }
 
 void RunContext::write(const std::string& name, const std::string& bytes) const {

@@ -48,6 +48,8 @@ struct RunContext {
   Window window(std::optional<double> from) const { return {from.value_or(0), duration, from ? 10u : 64u}; }
   /// Comment lines of a table: what it holds, and from which run.
   std::vector<std::string> comments(std::string what) const;
+  /// "t = 5"; "sweeps = 5" where the engine counts those.
+  std::string moment(double time) const;
   /// From when on averages with from = "steady" count, and whether that was a steady state: for the comments of a table.
   /// Nothing where the scene names the time.
   std::vector<std::string> average_note(const std::optional<double>& from, const Flow& flow) const;

@@ -119,8 +119,8 @@ class Run {
                         directory_.file("checkpoint").string(), checkpoint.program, program()));
       const auto told = session_.load(*checkpoint.state);
       if (engine().step() > session_.last_step())
-        throw InputError(fmt::format("run.duration: {:.6g} is over: the run in {} is at t = {:.6g}",
-                                     scene_.duration, directory_.path().string(), engine().time()));
+        throw InputError(fmt::format("run.duration: {:.6g} is over: the run in {} is at {}", scene_.duration,
+                                     directory_.path().string(), session_.context().moment(engine().time())));
       for (const auto& difference : io::frames_cut_short(directory_.path(), files_->sums()))
         throw InputError(difference + "; give --force to start again");
       if (checkpoint.scene == resolved_) return;

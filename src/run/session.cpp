@@ -152,16 +152,16 @@ std::vector<std::string> Session::load(std::istream& in) {
       StateInput inside(bytes);
       for (auto* observer : watch.observers) observer->load(inside);
     } else {
-      told.push_back(fmt::format("output.{}{} begins at t = {:.6g}, where the run goes on", watch.word,
+      told.push_back(fmt::format("output.{}{} begins at {}, where the run goes on", watch.word,
                                  before == kept.end() ? "" : " has other keys than before: it",
-                                 engine_->time()));
+                                 run_.moment(engine_->time())));
       for (auto* observer : watch.observers) observer->look({*engine_, {}, {}});
     }
     if (before != kept.end()) kept.erase(before);
   }
   for (const auto& [word, one] : kept)
     told.push_back(
-        fmt::format("output.{} ends at t = {:.6g}: its files stay as they are", word, engine_->time()));
+        fmt::format("output.{} ends at {}: its files stay as they are", word, run_.moment(engine_->time())));
   prepare();
   return told;
 }
