@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "core/random.hpp"
 #include "engines/hard/first_contact.hpp"
@@ -9,10 +8,9 @@
 using namespace chute;
 using chute::hard::Approach;
 using chute::hard::first_contact;
+using chute::hard::never;
 
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Distance less reach, in long double and straight from the definition.
 template <int D>

@@ -17,8 +17,6 @@ Flight<D> flying(Vec<D> place, Vec<D> velocity, Vec<D> gravity, double time, dou
   return f;
 }
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
 /// The first time at which the height above touching falls to 0, by looking very often.
 template <int D>
 double by_looking(const Flight<D>& flight, const Wall<D>& wall, const Domain<D>& domain, double until,

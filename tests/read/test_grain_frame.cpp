@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "common/atomic_file.hpp"
-#include "common/error.hpp"
+#include "complaint.hpp"
 #include "read/grain_frame.hpp"
 #include "read/network.hpp"
 #include "vtk_files.hpp"
@@ -13,22 +13,11 @@
 using namespace chute;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using chute::test::complaint;
 using vtk_files::Folder;
 using vtk_files::Kind;
 
 namespace {
-
-/// What InputError says; fails if nothing is thrown.
-template <class Work>
-std::string complaint(Work&& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  FAIL("no InputError");
-  return "";
-}
 
 /// What the work writes to standard error: VTK must not talk.
 template <class Work>

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "common/atomic_file.hpp"
-#include "common/error.hpp"
+#include "complaint.hpp"
 #include "read/run_frames.hpp"
 #include "vtk_files.hpp"
 
@@ -17,13 +17,8 @@ std::vector<std::string> names(const std::vector<read::FrameFile>& frames) {
   return result;
 }
 
-std::string complaint(const std::filesystem::path& path) {
-  try {
-    read::find_frames(path);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing";
+std::string refusal(const std::filesystem::path& path) {
+  return chute::test::complaint([&] { read::find_frames(path); });
 }
 
 void touch(const std::filesystem::path& path) {
@@ -57,7 +52,7 @@ TEST_CASE("A wrong time index is one line") {
   const auto pvd = folder / "frames.pvd";
   const auto expect = [&](const char* text, const char* what) {
     write_atomically(pvd, text);
-    CHECK_THAT(complaint(pvd), Contains(pvd.string()) && Contains(what) && !Contains("\n"));
+    CHECK_THAT(refusal(pvd), Contains(pvd.string()) && Contains(what) && !Contains("\n"));
   };
   expect("<VTKFile><Collection><DataSet", ":1: not a time index");
   expect("nonsense", ":1: not a time index");
@@ -71,7 +66,7 @@ TEST_CASE("A run without frames says how to get them") {
   Folder folder;
   touch(folder / "scene.toml");
   touch(folder / "impacts.vtp");  // grains hit here, but these are no grains
-  CHECK_THAT(complaint(folder.path), Contains("the run kept no frames"));
+  CHECK_THAT(refusal(folder.path), Contains("the run kept no frames"));
 }
 
 TEST_CASE("Files of other engines, in natural order") {
@@ -84,8 +79,8 @@ TEST_CASE("Files of other engines, in natural order") {
   CHECK(names(read::find_frames(folder.path)) ==
         std::vector<std::string>{"dump9.vtk", "dump10.vtk", "dump100.vtk", "other1.vtu"});
   CHECK(names(read::find_frames(folder / "dump9.vtk")) == std::vector<std::string>{"dump9.vtk"});
-  CHECK_THAT(complaint(folder / "none*.vtk"), Contains("no frames"));
-  CHECK_THAT(complaint(folder / "none"), Contains("no such file"));
+  CHECK_THAT(refusal(folder / "none*.vtk"), Contains("no frames"));
+  CHECK_THAT(refusal(folder / "none"), Contains("no such file"));
 }
 
 TEST_CASE("Parts of one time are one frame; what is named again replaces the earlier") {
@@ -112,6 +107,6 @@ TEST_CASE("An index of a series in JSON") {
   CHECK(frames[0].time == 0.1);
   for (const char* wrong : {"", "{}", "[1]", R"({"files":[{"name":"a"}]})", R"({"files":[{"time":0}]})"}) {
     write_atomically(index, wrong);
-    CHECK_THAT(complaint(index), Contains("grains.vtk.series: not a time index"));
+    CHECK_THAT(refusal(index), Contains("grains.vtk.series: not a time index"));
   }
 }

@@ -1,24 +1,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "common/error.hpp"
+#include "complaint.hpp"
 #include "read/iso_time.hpp"
 #include "read/table.hpp"
 
 using namespace chute;
 using Catch::Matchers::Contains;
-
-namespace {
-template <class Work>
-std::string complaint(Work&& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-}  // namespace
+using chute::test::complaint;
 
 TEST_CASE("A table with comments, texts, numbers and gaps") {
   const auto table = read::parse_table(

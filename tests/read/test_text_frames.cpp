@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/atomic_file.hpp"
-#include "common/error.hpp"
+#include "complaint.hpp"
 #include "read/byte_stream.hpp"
 #include "read/grain_frame.hpp"
 #include "read/run_frames.hpp"
@@ -16,6 +16,7 @@
 
 using namespace chute;
 using Catch::Matchers::Contains;
+using chute::test::complaint;
 using vtk_files::Folder;
 namespace fs = std::filesystem;
 
@@ -31,16 +32,6 @@ std::string zstd(const std::string& text) {
   std::string packed(ZSTD_compressBound(text.size()), '\0');
   packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
   return packed;
-}
-
-template <class Work>
-std::string complaint(Work&& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing";
 }
 
 read::GrainFrame only_frame(const fs::path& path) {

@@ -1,11 +1,15 @@
 #pragma once
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace chute::test {
 
@@ -48,6 +52,31 @@ inline std::map<std::string, std::string> tree(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = content(entry.path());
   return files;
+}
+
+const inline std::string scenes = CHUTE_SOURCE_DIR "/scenes/";
+
+/// The rows of a CSV file, its names first, without the lines of comment.
+inline std::vector<std::vector<std::string>> rows_of(const fs::path& file) {
+  std::istringstream in(content(file));
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("#")) continue;
+    auto& row = rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+  }
+  return rows;
+}
+/// One column of it; a cell without a number is NaN.
+inline std::vector<double> column(const fs::path& file, const std::string& name) {
+  const auto rows = rows_of(file);
+  const auto at = std::find(rows.at(0).begin(), rows.at(0).end(), name) - rows[0].begin();
+  if (at == std::ssize(rows[0])) throw std::runtime_error(file.string() + " has no column " + name);
+  std::vector<double> values;
+  for (std::size_t r = 1; r < rows.size(); ++r)
+    values.push_back(at < std::ssize(rows[r]) && !rows[r][at].empty() ? std::stod(rows[r][at]) : NAN);
+  return values;
 }
 
 /// What a run promises to repeat: all but run.json (times) and the checkpoint.

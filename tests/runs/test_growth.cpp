@@ -43,25 +43,6 @@ double step_of(const fs::path& run) {
   return nlohmann::json::parse(content(run / "run.json")).at("time_step");
 }
 
-/// A column of a CSV file.
-std::vector<double> column(const fs::path& file, const std::string& name) {
-  std::istringstream in(content(file));
-  std::vector<double> values;
-  std::size_t wanted = std::string::npos;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with('#')) continue;
-    std::istringstream cells(line);
-    std::size_t k = 0;
-    for (std::string cell; std::getline(cells, cell, ','); ++k) {
-      if (cell == name)
-        wanted = k;
-      else if (k == wanted)
-        values.push_back(cell.empty() ? 0 : std::stod(cell));
-    }
-  }
-  return values;
-}
-
 }  // namespace
 
 TEST_CASE("a run that is made longer has the bytes of one made in one go") {

@@ -14,8 +14,6 @@ using namespace chute::test;
 
 namespace {
 
-const std::string scenes = CHUTE_SOURCE_DIR "/scenes/";
-
 std::vector<std::string> small_packing() {
   return {"grains.count=200", "domain.size=[20]", "run.duration=3", "output.frames={every=1}"};
 }

@@ -13,8 +13,6 @@ using namespace chute::test;
 
 namespace {
 
-const std::string scenes = CHUTE_SOURCE_DIR "/scenes/";
-
 double mean_velocity(const scene::Scene& scene, double from, double to) {
   const auto made = make_engine(scene);
   const auto place_at = [&](double t) {
@@ -31,28 +29,6 @@ std::vector<std::string> small(std::vector<std::string> more = {}) {
                            "run.duration=14", "output.frames=", "output.contacts=false",
                            "output.fields=", "output.profiles={from=12, bin=0.5, every=0.05}"});
   return more;
-}
-
-std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& file) {
-  std::istringstream in(content(file));
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("#")) continue;
-    auto& row = rows.emplace_back();
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
-  }
-  return rows;
-}
-std::vector<double> column(const std::filesystem::path& file, const std::string& name) {
-  const auto rows = rows_of(file);
-  const auto at = std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
-  REQUIRE(at < static_cast<std::ptrdiff_t>(rows[0].size()));
-  std::vector<double> values;
-  for (std::size_t r = 1; r < rows.size(); ++r)
-    values.push_back(
-        rows[r].size() > static_cast<std::size_t>(at) && !rows[r][at].empty() ? std::stod(rows[r][at]) : NAN);
-  return values;
 }
 
 }  // namespace

@@ -4,18 +4,12 @@
 #include <sstream>
 
 #include "small_chute.hpp"
+#include "state.hpp"
 
 using namespace chute;
 using namespace chute::test;
 
 namespace {
-
-template <int D>
-std::string state(const soft::SoftEngine<D>& engine) {
-  std::ostringstream out;
-  engine.save(out);
-  return out.str();
-}
 
 /// A long chute: 400 beads, 300 by 3 grains. Sorted from the start; tiles of about 150 grains.
 SmallChute long_chute() {

@@ -2,18 +2,12 @@
 #include <sstream>
 
 #include "small_chute.hpp"
+#include "state.hpp"
 
 using namespace chute;
 using namespace chute::test;
 
 namespace {
-
-template <int D>
-std::string state(const soft::SoftEngine<D>& engine) {
-  std::ostringstream out;
-  engine.save(out);
-  return out.str();
-}
 
 /// The whole state after many contacts, among them gliding, rolling and resting ones.
 template <int D>

@@ -7,7 +7,11 @@ clang_tidy=$(tool clang-tidy)
 cd "$1"
 mapfile -t files < <(find src render -name '*.cpp' | grep -E "${3:-.}" | sort)
 ((${#files[@]})) || { echo "no file matches ${3:-.}" && exit 1; }
-said=$(printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 "$clang_tidy" -p "$2" --quiet \
+# Several files compiled as one have no entry of their own in the list of commands: clang-tidy gets a list where each has.
+commands=$2/each-file
+mapfile -t same < <(sed -nE 's/^(VTK_DIR|CMAKE_BUILD_TYPE|CHUTE_WATCH):[^=]*=(.*)/-D\1=\2/p' "$2/CMakeCache.txt")
+cmake -S . -B "$commands" -G Ninja -DCMAKE_UNITY_BUILD=OFF "${same[@]}" >/dev/null
+said=$(printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 "$clang_tidy" -p "$commands" --quiet \
   --extra-arg=-Wno-unknown-warning-option 2>/dev/null) || true
 # Headers come once for each file that includes them.
 problems=$(grep -E '^/.*(warning|error): ' <<<"$said" | sort -u) || true
