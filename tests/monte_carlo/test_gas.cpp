@@ -114,7 +114,8 @@ TEST_CASE("the pressure of a dense fluid of hard spheres is the published one") 
   CHECK(*z.error < 0.0075 * z.mean);
 }
 
-// Minutes: with --long.
+// Minutes: with --long. Of spheres by the series up to φ = 0.4: Carnahan's and Starling's formula is itself 0.15 and 0.25 % lower
+// there.
 TEST_CASE("the pressures of hard discs and spheres are the published ones to 0.3 %", "[.exact]") {
   for (const double phi : {0.2, 0.5}) {
     const auto z = pressure<2>(24, phi, false, 16000);
@@ -126,7 +127,6 @@ TEST_CASE("the pressures of hard discs and spheres are the published ones to 0.3
     const auto z = pressure<3>(9, phi, false, 10000);
     CAPTURE(phi, z.mean, *z.error, virial_spheres(phi), carnahan_starling(phi));
     CHECK(z.mean == Approx(virial_spheres(phi)).epsilon(0.003));
-    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.003));
     CHECK(*z.error < 0.002 * z.mean);
   }
   const auto z = pressure<3>(9, 0.45, false, 20000, 16);
