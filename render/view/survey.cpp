@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <future>
+#include <limits>
 #include <numbers>
 
 #include "common/error.hpp"
@@ -29,12 +30,18 @@ double round_up(double x) {
   return std::copysign(std::ceil(leading / step - 1e-9) * step * power, x);
 }
 
-/// Decimals that tell all these numbers apart as they are, at most `most`.
-int decimals_for(const std::vector<double>& values, int most) {
+/// Decimals that tell the times of frames as they are, at most `most`. Times that are a whole number of steps, and so a little
+/// off a round one, are told as that: to a thousandth of what lies between two frames.
+int decimals_for(const std::vector<double>& times, int most) {
+  constexpr double part = 1e-3;
+  double between = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (times[i] > times[i - 1]) between = std::min(between, times[i] - times[i - 1]);
+  const double slack = std::isfinite(between) ? part * between : 0;
   for (int decimals = 0; decimals < most; ++decimals) {
     const double unit = std::pow(10.0, -decimals);
-    const bool enough = std::all_of(values.begin(), values.end(), [&](double v) {
-      return std::abs(v - unit * std::round(v / unit)) <= 1e-6 * unit + 1e-12 * std::abs(v);
+    const bool enough = std::all_of(times.begin(), times.end(), [&](double v) {
+      return std::abs(v - unit * std::round(v / unit)) <= slack + 1e-6 * unit + 1e-12 * std::abs(v);
     });
     if (enough) return decimals;
   }

@@ -11,6 +11,7 @@
 #include "plot/parameters.hpp"
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
+#include "plot/style.hpp"
 
 using namespace chute::plot;
 
@@ -237,6 +238,57 @@ TEST_CASE(
   for (const auto& tag : lay_out(figure).list.tags) samples += tag.kind == Tag::Kind::sample;
   REQUIRE(samples == 3);
   REQUIRE(review(figure, lay_out(figure)).empty());
+}
+
+TEST_CASE("what is in doubt stretches an axis a little, and is an arrow where it lies farther off") {
+  auto figure = one_panel({points("v", {0, 1, 2, 3}, {1, 2, 3, 5})});
+  auto& panel = figure.panels[0];
+  const double just_below_the_end = 5 - 1e-3, a_little_above = 5 + 0.25 * (5 - 1),
+               far_above = 5 + 0.4 * (5 - 1);
+  panel.series.push_back(points("v unsettled", {1, 2}, {just_below_the_end, a_little_above}));
+  REQUIRE(arrows(figure) == 0);
+  REQUIRE(review(figure, lay_out(figure)).empty());  // none is cut by the frame
+  panel.series.back() = points("v unsettled", {1, 2}, {just_below_the_end, far_above});
+  REQUIRE(arrows(figure) == 1);
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  // on a logarithmic axis the same in decades: one of the decade's third, not of the whole
+  panel.y.scale = Scale::log;
+  panel.series[0].y = {1, 2, 5, 10}, panel.series.back().y = {3, 10 * std::pow(10, 0.25)};
+  REQUIRE(arrows(figure) == 0);
+  panel.series.back().y = {3, 10 * std::pow(10, 0.4)};
+  REQUIRE(arrows(figure) == 1);
+}
+
+TEST_CASE("an inset keeps off the data where there is room, and the referee finds one that does not") {
+  // a curve through the corner that is asked for
+  auto figure = one_panel({slope("a", 1, Kind::line)});
+  auto& panel = figure.panels[0];
+  panel.series[0].x = {0, 0.3, 1}, panel.series[0].y = {0, 1, 1};
+  panel.legend = Place::off;
+  Inset& inset = panel.insets.emplace_back();
+  inset.plot.series = panel.series, inset.place = Place::top_left;
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  inset.width = 0.85, inset.height = 0.8;  // room nowhere
+  REQUIRE(count(figure, Finding::Kind::text_on_data) == 1);
+}
+
+TEST_CASE("a line's name keeps off the frame's ticks") {
+  auto figure = one_panel({points("v", {-0.2, 0, 0.2}, {1, 2, 3})});
+  auto& panel = figure.panels[0];
+  panel.x.min = -0.22, panel.x.max = 0.22;
+  for (const double at : {-0.2, 0.2})
+    panel.references.push_back({Reference::Kind::vertical, at, "$\\gamma$"});
+  const auto layout = lay_out(figure);
+  Rect frame;
+  for (const auto& box : layout.boxes)
+    if (box.kind == Box::Kind::frame) frame = box.rect;
+  std::size_t names = 0;
+  for (const auto& box : layout.boxes) {
+    if (box.kind != Box::Kind::note) continue;
+    ++names;
+    REQUIRE(frame.grown(-look_of(Style::journal).major_tick).contains(box.rect));
+  }
+  REQUIRE(names == 2);
 }
 
 TEST_CASE("a crowd of dots becomes a density that holds all of them") {
