@@ -68,6 +68,7 @@ class Builder {
       plain.label = name;
       figure.panels.push_back(make_panel(plain));
     }
+    draw_crowds_as_densities(figure);
     if (figure.panels.size() == 1 && names_.size() == 1)
       figure.panels[0].label.clear();  // (a) alone says nothing
     return figure;
@@ -270,7 +271,6 @@ class Builder {
       };
       tight(panel.x, panel.map->x), tight(panel.y, panel.map->y);
     }
-    draw_crowd_as_density(panel);
     if (!panel.x.names.empty()) set_side_by_side(panel.series);
     for (const auto& i : p.insets) {
       Inset& inset = panel.insets.emplace_back();

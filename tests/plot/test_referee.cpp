@@ -310,6 +310,28 @@ TEST_CASE("a crowd of dots becomes a density that holds all of them") {
   REQUIRE_FALSE(panel.map);  // few stay dots
 }
 
+TEST_CASE("crowds that show one quantity have one range of it, unless told") {
+  for (const bool own : {false, true}) {
+    Figure figure;
+    figure.own_ranges = own;
+    for (const double scale : {1.0, 3.0}) {
+      auto& panel = figure.panels.emplace_back();
+      panel.x.label = "x", panel.y.label = "v";
+      auto s = points("impacts", {}, {}, Kind::dots);
+      for (int i = 0; i < 20000; ++i)
+        s.x.push_back(std::fmod(0.61803398875 * i, 1)), s.y.push_back(scale * s.x.back());
+      panel.series = {s};
+    }
+    draw_crowds_as_densities(figure);
+    REQUIRE((figure.panels[0].map && figure.panels[1].map));
+    REQUIRE((*figure.panels[0].y.max > 2) != own);
+    double sum = 0;
+    for (const double v : figure.panels[0].map->values)
+      if (std::isfinite(v)) sum += std::pow(10, v);
+    REQUIRE(sum == Approx(20000));
+  }
+}
+
 TEST_CASE("panels that show one quantity have one range, unless told") {
   Figure figure;
   figure.width = 178;
