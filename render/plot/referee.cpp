@@ -49,6 +49,7 @@ class Referee {
     texts();
     markers();
     points();
+    outside();
     looks();
     parameters();
     return std::move(found_);
@@ -162,6 +163,23 @@ class Referee {
     }
   }
 
+  /// Arrows say that a few lie elsewhere; where many do, the range is wrong.
+  void outside() {
+    constexpr double most = 0.5;
+    for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
+      std::size_t inside = 0, beyond = 0;
+      for (const auto& tag : layout_.list.tags) {
+        if (tag.panel != static_cast<int>(p) || is_doubtful(tag.series)) continue;  // which may lie anywhere
+        if (tag.kind == Tag::Kind::marker || tag.kind == Tag::Kind::dots) inside += tag.points;
+        if (tag.kind == Tag::Kind::beyond) beyond += tag.points;
+      }
+      if (figure_.panels[p].map || static_cast<double>(beyond) <= most * static_cast<double>(inside + beyond))
+        continue;
+      add(Fault::mostly_outside, static_cast<int>(p),
+          fmt::format("{} of {} points", beyond, inside + beyond));
+    }
+  }
+
   /// How a series is drawn, without its colour: the outlines of a marker about its middle, how they are painted, dashes.
   struct Drawn {
     std::string form;
@@ -239,8 +257,9 @@ class Referee {
 }  // namespace
 
 const char* name(Finding::Kind kind) {
-  static const char* names[] = {"text overlap", "text on data", "marker on the frame", "point lost",
-                                "colour alone", "alike",        "no parameters"};
+  static const char* names[] = {"text overlap", "text on data",   "marker on the frame",
+                                "point lost",   "mostly outside", "colour alone",
+                                "alike",        "no parameters"};
   return names[static_cast<int>(kind)];
 }
 

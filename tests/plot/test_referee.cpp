@@ -149,6 +149,49 @@ TEST_CASE("points outside given limits become arrows, and none is lost") {
   REQUIRE(arrows(figure) == 1);
 }
 
+TEST_CASE("a panel whose points are mostly elsewhere is a fault") {
+  auto figure = one_panel({points("v", {1, 2, 3, 4}, {1, 2, 3, 4})});
+  figure.panels[0].y.max = 3.5;
+  REQUIRE(arrows(figure) == 1);
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  figure.panels[0].y.max = 1.5;
+  REQUIRE(count(figure, Finding::Kind::mostly_outside) == 1);
+}
+
+TEST_CASE("a legend says what a hollow marker means, also where whole series are told to be hollow") {
+  auto figure = one_panel({slope("a", 1, Kind::both), slope("b", 2, Kind::both)});
+  const auto samples = [&] {
+    std::vector<std::string> names;
+    for (const auto& tag : lay_out(figure).list.tags)
+      if (tag.kind == Tag::Kind::sample) names.push_back(tag.series);
+    return names;
+  };
+  REQUIRE(samples() == std::vector<std::string>{"$a$", "$b$"});
+  figure.panels[0].series[0].hollow = true;
+  REQUIRE(samples() == std::vector<std::string>{"$a$", "$b$", "not settled"});
+}
+
+TEST_CASE("numbers that change with the size of their frame leave no gap beside them") {
+  // at one size the axis has ticks such as 0.5, which leave it the room for fewer, 0 and 1, and so on
+  Figure figure = one_panel({slope("a", 1, Kind::line)});
+  auto& s = figure.panels[0].series[0];
+  s.x = {0, 1, 5}, s.y = {0, -0.39, 3.6};
+  figure.panels[0].y.label = "$\\psi_f$";
+  for (double width = 60; width < 110; width += 0.5) {
+    figure.width = width;
+    const auto layout = lay_out(figure);
+    double label = 0, numbers = 1e9;
+    for (const auto& box : layout.boxes) {
+      if (box.kind == Box::Kind::axis_label) label = std::max(label, box.rect.right);
+      if (box.kind == Box::Kind::tick_label && box.rect.right < layout.list.width / 3)
+        numbers = std::min(numbers, box.rect.left);
+    }
+    INFO("width " << width);
+    REQUIRE(numbers - label < 6);  // points
+    REQUIRE(review(figure, layout).empty());
+  }
+}
+
 TEST_CASE("wherever limits and points are, no marker is cut and no point is lost") {
   std::mt19937_64 engine(11);
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) / 9007199254740992.0; };
