@@ -80,11 +80,6 @@ std::string FrameStyle::describe() const {
                     furniture, trail);
 }
 
-void furnish_space(FrameStyle& style) {
-  for (auto* part : {&style.outlines, &style.floor, &style.box})
-    if (!*part) *part = style.furniture;
-}
-
 const std::array<Rgb, kind_color_count>& kind_colors(Background background) {
   constexpr auto bytes = [](int r, int g, int b) { return Rgb{r / 255., g / 255., b / 255.}; };
   // The first three are Okabe and Ito's blue, vermilion and green. The others were searched for among colours of usual palettes such that

@@ -58,7 +58,7 @@ struct FrameStyle {
   bool impacts = false;              ///< marks where grains of the bed were hit so far
   bool occlusion = false;            ///< 3D: ambient occlusion
   /// 3D: a dark line inside the rim of every grain; shadows on a plane below; edges of the periodic box, or of the box
-  /// of all grains. Not told: not drawn, but see furnish_space.
+  /// of all grains. Not told: not drawn, but see furnish_space in survey.hpp.
   std::optional<bool> outlines, floor, box;
   bool spin = true;       ///< marks that turn with the grains
   bool furniture = true;  ///< colour bar, time, scale bar, gravity
@@ -77,10 +77,6 @@ struct FrameStyle {
   /// All of the above as text: part of what a frame is drawn from.
   std::string describe() const;
 };
-
-/// What tells depths in a space, as far as the style does not say: silhouettes, a floor with shadows and the box, unless only
-/// the grains are wanted.
-void furnish_space(FrameStyle& style);
 
 /// Where in a FrameStyle::time the number stands.
 struct TimePlace {

@@ -402,7 +402,7 @@ RenderReport render_run(const RenderJob& asked) {
   found.series = std::move(series);
   const Beside beside(job, frames);
   check_options(job.style, found);
-  if (found.dimensions == 3) furnish_space(job.style);
+  if (found.dimensions == 3) furnish_space(job.style, found);
   if (!job.output.empty()) {
     std::error_code error;
     fs::create_directories(job.output, error);

@@ -41,9 +41,7 @@ class SolidPainter : public Painter {
     const auto axes = Eye::axes_of(towards, studio_.style.tilt && strength > 0 ? Vector3d(-down) : normal_);
 
     box_ = survey.bounds;
-    if (const auto& lattice = survey.lattice; lattice && has_box())  // it is to be seen whole
-      for (int corner = 0; corner < 8; ++corner)
-        box_.extend(lattice->origin + lattice->edges * Vector3d(corner & 1, corner >> 1 & 1, corner >> 2));
+    if (has_box()) box_.extend(box_of_space(survey));  // it is to be seen whole
     if (copies()) box_.min().x() -= copy_reach * period(), box_.max().x() += copy_reach * period();
     furniture = std::make_unique<Furniture>(studio_, Eye::aspect(box_, axes));
     eye_ = Eye::on_box(box_, axes, furniture->places().scene, camera.zoom);
@@ -255,10 +253,7 @@ class SolidPainter : public Painter {
       }
       return;
     }
-    Eigen::AlignedBox3d box = studio_.survey.bounds;
-    for (int c = 0; c < 3; ++c)
-      if (studio_.survey.domain.sizes()[c] > 0)
-        box.min()[c] = studio_.survey.domain.min()[c], box.max()[c] = studio_.survey.domain.max()[c];
+    const auto box = box_of_space(studio_.survey);
     for (int corner = 0; corner < 8; ++corner)
       for (int c = 0; c < 3; ++c)
         if (const int other = corner | 1 << c; other != corner)
@@ -271,6 +266,11 @@ class SolidPainter : public Painter {
     Floor floor;
     const Vector3d half = box_.diagonal() / 2;
     floor.centre = box_.center() - half[studio_.survey.up_axis] * normal_, floor.normal = normal_;
+    // of a tall column as far as it is wide, or the shadow would run under the texts beside it
+    double width = 0;
+    for (int c = 0; c < 3; ++c)
+      if (c != studio_.survey.up_axis) width = std::max(width, box_.sizes()[c]);
+    floor.reach = width / box_.sizes()[studio_.survey.up_axis];
     floor.radius = half.norm() + box_.diagonal()[studio_.survey.up_axis];  // the shadow of the highest grain
     content_.floor = floor;
   }

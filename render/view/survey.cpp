@@ -255,6 +255,30 @@ Survey Surveyor::finish() {
   return s;
 }
 
+Eigen::AlignedBox3d box_of_space(const Survey& survey) {
+  Eigen::AlignedBox3d box;
+  if (const auto& lattice = survey.lattice) {
+    for (int corner = 0; corner < 8; ++corner)
+      box.extend(lattice->origin +
+                 lattice->edges * Eigen::Vector3d(corner & 1, corner >> 1 & 1, corner >> 2));
+    return box;
+  }
+  box = survey.bounds;
+  for (int c = 0; c < 3; ++c)
+    if (survey.domain.sizes()[c] > 0)
+      box.min()[c] = survey.domain.min()[c], box.max()[c] = survey.domain.max()[c];
+  return box;
+}
+
+void furnish_space(FrameStyle& style, const Survey& survey) {
+  constexpr double much_larger = 1.3;
+  const bool fits =
+      (box_of_space(survey).sizes().array() <= much_larger * survey.bounds.sizes().array()).all();
+  if (!style.outlines) style.outlines = style.furniture;
+  if (!style.floor) style.floor = style.furniture;
+  if (!style.box) style.box = style.furniture && fits;
+}
+
 std::string Survey::describe() const {
   const auto text = [](const Eigen::VectorXd& v) {
     return fmt::format("{},", fmt::join(v.begin(), v.end(), ","));

@@ -243,7 +243,9 @@ TEST_CASE("What cannot be drawn is said in one line") {
 
 TEST_CASE("In space grains stand in their box over a floor, unless told otherwise or bare") {
   Folder folder;
-  grains::write(grains::cube(3), folder.path / "frames/0.vtk");
+  auto space = grains::cube(3);
+  space.domain.max() = {3, 0, 0};
+  grains::write(space, folder.path / "frames/0.vtk");
   auto job = job_for(folder, "out");
   const auto draw = [&](auto&& change) {
     auto other = job;
@@ -258,6 +260,14 @@ TEST_CASE("In space grains stand in their box over a floor, unless told otherwis
   CHECK_FALSE(usual == draw([](auto& s) { s.outlines = false; }));
   CHECK_FALSE(usual == draw([](auto& s) { s.floor = false; }));
   CHECK_FALSE(usual == draw([](auto& s) { s.box = false; }));
+  // a box that would make the grains small is drawn where it is asked for
+  auto wide = space;
+  wide.domain.max() = {40, 0, 0};
+  grains::write(wide, folder.path / "frames/0.vtk");
+  const auto without = draw([](auto& s) { s.box = false; });
+  CHECK(draw([](auto&) {}) == without);
+  CHECK_FALSE(draw([](auto& s) { s.box = true; }) == without);
+  grains::write(space, folder.path / "frames/0.vtk");
   const auto bare = draw([](auto& s) { s.furniture = false; });
   CHECK(bare == draw([](auto& s) { s.furniture = false, s.outlines = s.floor = s.box = false; }));
   CHECK_FALSE(bare == draw([](auto& s) { s.furniture = false, s.floor = true; }));

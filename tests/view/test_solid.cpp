@@ -281,6 +281,20 @@ TEST_CASE("A ball's shadow lies on the floor, away from the light") {
   CHECK(dark(-3.2) == 0);
 }
 
+TEST_CASE("The shadow of what is high falls no farther aside than it may") {
+  view::Eye eye;
+  eye.axes = view::Eye::axes_of({0, -1, 1}, {0, 0, 1}), eye.distance = 100, eye.focal = 1500,
+  eye.at = {100, 75};
+  const auto shadow_below = [&](double reach) {
+    const view::SolidContent content{.balls = {{{0, 0, 30}, 1, {1, 1, 1}}},  // above the picture
+                                     .floor = view::Floor{{0, 0, 0}, {0, 0, 1}, 40, reach}};
+    return picture(content, eye).pixel(100, 75)[3];
+  };
+  CHECK(shadow_below(0) > 30);
+  CHECK(shadow_below(0.01) > 30);
+  CHECK(shadow_below(std::numeric_limits<double>::infinity()) == 0);
+}
+
 TEST_CASE("What is cut away is not drawn") {
   const auto frame = grains::cube(4);
   auto style = small();
