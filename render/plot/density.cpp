@@ -33,13 +33,32 @@ Side side_of(Axis& axis, const std::vector<double>& values, std::size_t cells) {
   return {low, high, cells};
 }
 
+bool is_crowd(const Panel& panel) {
+  return panel.series.size() == 1 && !panel.map && !panel.chains && panel.series[0].kind == Kind::dots &&
+         panel.series[0].x.size() > most_dots && panel.x.scale != Scale::log && panel.y.scale != Scale::log;
+}
+
+/// One quantity has one range, as elsewhere: here it must be known before cells are made of it.
+void share_range(Figure& figure, Axis Panel::*axis, std::vector<double> Series::*values) {
+  for (auto& panel : figure.panels) {
+    auto& own = panel.*axis;
+    if (!is_crowd(panel) || own.label.empty()) continue;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& other : figure.panels) {
+      if ((other.*axis).label != own.label) continue;
+      for (const auto& s : other.series)
+        for (const double v : s.*values)
+          if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+    if (!own.min) own.min = low;
+    if (!own.max) own.max = high;
+  }
+}
+
 }  // namespace
 
 void draw_crowd_as_density(Panel& panel) {
-  const bool alone = panel.series.size() == 1 && !panel.map && !panel.chains;
-  if (!alone || panel.series[0].kind != Kind::dots || panel.series[0].x.size() <= most_dots ||
-      panel.x.scale == Scale::log || panel.y.scale == Scale::log)
-    return;
+  if (!is_crowd(panel)) return;
   auto& dots = panel.series[0];
   const Side x = side_of(panel.x, dots.x, cells_x), y = side_of(panel.y, dots.y, cells_y);
   if (!(x.high > x.low) || !(y.high > y.low)) return;
@@ -62,6 +81,14 @@ void draw_crowd_as_density(Panel& panel) {
   panel.map = std::move(map);
   panel.series.clear();
   if (!outside.x.empty()) panel.series.push_back(std::move(outside));
+}
+
+void draw_crowds_as_densities(Figure& figure) {
+  if (!figure.own_ranges) {
+    share_range(figure, &Panel::x, &Series::x);
+    share_range(figure, &Panel::y, &Series::y);
+  }
+  for (auto& panel : figure.panels) draw_crowd_as_density(panel);
 }
 
 }  // namespace chute::plot

@@ -10,4 +10,8 @@ inline constexpr std::size_t most_dots = 10'000;
 /// a logarithmic scale of colours. Dots outside the limits that the axes have stay dots, and so become arrows at the frame.
 void draw_crowd_as_density(Panel& panel);
 
+/// The same in all panels; those that show one quantity, by the labels of their axes, get one range of it, unless the figure wants
+/// its own for each.
+void draw_crowds_as_densities(Figure& figure);
+
 }  // namespace chute::plot

@@ -36,6 +36,10 @@ bool is_line_by_name(const std::string& name) {
          name.starts_with("eq ") || name.ends_with(" fit");
 }
 
+/// More markers than these would run together into a string, and are drawn small: diameter in points.
+constexpr std::size_t crowded = 60;
+constexpr double small_marker = 2;
+
 class Builder {
  public:
   Builder(const PlotRecipe& recipe, const read::Table& table) : recipe_(recipe), table_(table) {
@@ -68,6 +72,7 @@ class Builder {
       plain.label = name;
       figure.panels.push_back(make_panel(plain));
     }
+    draw_crowds_as_densities(figure);
     if (figure.panels.size() == 1 && names_.size() == 1)
       figure.panels[0].label.clear();  // (a) alone says nothing
     return figure;
@@ -177,7 +182,10 @@ class Builder {
       s.kind = static_cast<Kind>(static_cast<int>(kind) - 1);
       s.hollow = is_told_hollow(table_.comments, panel, s.name);
       // points that averages do not vouch for are not joined, nor drawn as a line of their own
-      if (is_doubtful(s.name) && !own && s.kind != Kind::dots) s.kind = Kind::markers;
+      if (is_doubtful(s.name) && !own && s.kind != Kind::dots) {
+        s.kind = Kind::markers;
+        if (s.x.size() > crowded) s.size = small_marker;
+      }
       if (own) {
         s.label = own->label;
         if (own->color >= 0) s.color = own->color;
@@ -270,7 +278,6 @@ class Builder {
       };
       tight(panel.x, panel.map->x), tight(panel.y, panel.map->y);
     }
-    draw_crowd_as_density(panel);
     if (!panel.x.names.empty()) set_side_by_side(panel.series);
     for (const auto& i : p.insets) {
       Inset& inset = panel.insets.emplace_back();

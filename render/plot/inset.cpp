@@ -15,7 +15,10 @@ void draw_inset(Layout& out, const Inset& inset, const Rect& frame, int panel, c
                 const std::map<std::string, SeriesLook>& looks, Occupancy& occupied) {
   const double width = inset.width * frame.width(), height = inset.height * frame.height();
   std::optional<Point> at;
-  if (const auto room = occupied.room_for(width, height, inset_from_frame, inset.place)) at = room->at;
+  // where it is asked for, else where it covers nothing, else where at least no text is
+  for (const auto place : {inset.place, Place::automatic})
+    if (const auto room = occupied.room_for(width, height, inset_from_frame, place); room && !at)
+      at = room->at;
   if (!at) at = occupied.beside_texts(width, height, inset_from_frame, inset.place);
   if (!at)
     throw InputError(fmt::format("an inset of {} by {} of its panel finds no room beside the texts",

@@ -151,6 +151,8 @@ class Layouter {
         block.add(figure_, *factors, series, colors);
       else
         for (const auto* s : series) block.add(*s);
+      for (const auto* s : series)
+        if (s->hollow && (s->kind == Kind::markers || s->kind == Kind::both)) block.add_hollow();
     };
     if (has_common_legend(figure_)) {
       LegendPlan plan{{look_, looks_}, -1, Place::automatic};
@@ -282,7 +284,39 @@ class Layouter {
                         figure_.width, page_.height / points_per_mm, n, columns_));
       if (std::abs(width - old_width) < 1e-9 && std::abs(height - old_height) < 1e-9) break;
     }
+    give_back_width(margin, between, width, height);
     place_frames(n, margin, between, width, height);
+  }
+
+  /// Where ticks and size would chase each other, because a larger frame has longer numbers that leave it less room, margins have
+  /// stayed wider than what stands in them: frames take that room, at the same height, if their numbers stay as they are.
+  void give_back_width(double margin, double between, double& width, double height) {
+    const auto needed = [&](double w) {
+      std::vector<Margins> columns(static_cast<std::size_t>(columns_));
+      for (std::size_t i = 0; i < axes_.size(); ++i) {
+        Margins m = axes_[i]->fit(w, height);
+        if (figure_.panels[i].map)
+          m.right = std::max(m.right, bar_width(look_, *figure_.panels[i].map, height));
+        columns[static_cast<std::size_t>(column(i))].widen(m);
+      }
+      return columns;
+    };
+    const auto fits = [](const std::vector<Margins>& a, const std::vector<Margins>& room) {
+      for (std::size_t i = 0; i < a.size(); ++i)
+        if (a[i].left > room[i].left + 1e-9 || a[i].right > room[i].right + 1e-9) return false;
+      return true;
+    };
+    const auto narrow = needed(width);
+    double used = 2 * margin + between * (columns_ - 1);
+    for (const auto& m : narrow) used += m.left + m.right;
+    const double wider = (page_.width - used) / columns_;
+    if (wider > width + 1e-6 && fits(needed(wider), narrow)) {
+      for (std::size_t i = 0; i < narrow.size(); ++i)
+        column_margins_[i].left = narrow[i].left, column_margins_[i].right = narrow[i].right;
+      width = wider;
+    } else {
+      needed(width);  // the axes are laid out for this width again
+    }
   }
 
   void place_frames(std::size_t n, double margin, double between, double width, double height) {

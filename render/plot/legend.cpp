@@ -22,14 +22,23 @@ void LegendBlock::put(const std::string& name, Kind kind, const SeriesLook& look
 void LegendBlock::add(const Series& series) {
   const auto& ink = looks_->at(series.name);
   if (is_doubtful(series.name) && !series.label) {
-    SeriesLook any;
-    any.color = look_->ink, any.hollow = true;
     const auto word = series.name.substr(base_name(series.name).size() + 1);
-    put(" " + word, Kind::markers, any, word == "apart" ? "starts that part" : "not settled");
+    if (word == "apart")
+      put(" " + word, Kind::markers, any_hollow(), "starts that part");
+    else
+      add_hollow();
     return;
   }
   put(series.name, series.kind, ink, series.label.value_or(label_from_name(series.name)));
 }
+
+SeriesLook LegendBlock::any_hollow() const {
+  SeriesLook any;
+  any.color = look_->ink, any.hollow = true;
+  return any;
+}
+
+void LegendBlock::add_hollow() { put(" unsettled", Kind::markers, any_hollow(), "not settled"); }
 
 void LegendBlock::add(const Figure& figure, const Factors& factors, const std::vector<const Series*>& series,
                       bool colors) {

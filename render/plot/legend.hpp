@@ -28,6 +28,8 @@ class LegendBlock {
   /// `colors` only the second: the first is told at the curves.
   void add(const Figure& figure, const Factors& factors, const std::vector<const Series*>& series,
            bool colors);
+  /// What hollow markers mean, where a whole series is told to be (parameters.hpp) and no part of its name says so.
+  void add_hollow();
   std::size_t count() const { return entries_.size(); }
 
   double width(int columns) const;
@@ -48,6 +50,7 @@ class LegendBlock {
   const std::map<std::string, SeriesLook>* looks_;
   std::vector<Entry> entries_;
 
+  SeriesLook any_hollow() const;
   bool has(const std::string& name) const;
   void put(const std::string& name, Kind kind, const SeriesLook& look, const std::string& label);
   int rows(int columns) const { return (static_cast<int>(entries_.size()) + columns - 1) / columns; }

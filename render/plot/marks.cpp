@@ -349,15 +349,39 @@ void include_series(Extents& e, const Plot& plot, const Series& s) {
 
 }  // namespace
 
+/// Points that are not vouched for stretch an axis by so much of its length at most; those farther off become arrows at the frame.
+constexpr double doubtful_reach = 0.3;
+
+static bool is_near(const Extent& extent, const Axis& axis, double value) {
+  if (extent.low > extent.high) return true;
+  if (axis.scale == Scale::log) {
+    const double reach = std::pow(extent.high / extent.low, doubtful_reach);
+    return value > 0 && value * reach >= extent.low && value <= extent.high * reach;
+  }
+  const double reach = doubtful_reach * (extent.high - extent.low);
+  return value >= extent.low - reach && value <= extent.high + reach;
+}
+
 Extents extents_of(const Plot& plot) {
   Extents e;
   e.y.keep_off = true;
-  // Points that are not vouched for stretch no axis: where they lie far off they become arrows at the frame.
   const bool all_doubtful = std::all_of(plot.series.begin(), plot.series.end(),
                                         [](const Series& s) { return is_doubtful(s.name) || s.x.empty(); });
   for (const auto& s : plot.series) {
     check_lengths(s);
     if (all_doubtful || !is_doubtful(s.name)) include_series(e, plot, s);
+  }
+  if (!all_doubtful) {
+    const Extents sure = e;
+    for (const auto& s : plot.series) {
+      if (!is_doubtful(s.name)) continue;
+      Series near = s;  // its points alone: errors of what is in doubt stretch nothing
+      near.x.clear(), near.y.clear(), near.x_err.clear(), near.y_err.clear();
+      for (std::size_t i = 0; i < s.x.size(); ++i)
+        if (is_near(sure.x, plot.x, s.x[i]) && is_near(sure.y, plot.y, s.y[i]))
+          near.x.push_back(s.x[i]), near.y.push_back(s.y[i]);
+      include_series(e, plot, near);
+    }
   }
   // a line that runs along the lower edge for long would not be seen there: it asks for room as markers do
   for (const auto& s : plot.series) {
@@ -406,10 +430,22 @@ static void draw_chains(Painter& painter, const Frame& frame, const Chains& chai
   }
 }
 
+/// Where dots became a density (density.hpp), its cells are data that no text may cover, as the dots were.
+static void mark_crowd(Occupancy& occupied, const Frame& frame, const Map& map) {
+  const auto x = cell_edges(map.x), y = cell_edges(map.y);
+  for (std::size_t j = 0; j < map.y.size(); ++j)
+    for (std::size_t i = 0; i < map.x.size(); ++i)
+      if (std::isfinite(map.values[j * map.x.size() + i])) {
+        const Point low = frame.at(x[i], y[j]), high = frame.at(x[i + 1], y[j + 1]);
+        occupied.mark({low.x(), high.y(), high.x(), low.y()});
+      }
+}
+
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks) {
   painter.list.items.emplace_back(ClipBegin{frame.rect});
   if (plot.map) draw_map(painter.list, painter.look, frame, *plot.map);
+  if (plot.map && plot.map->log) mark_crowd(painter.occupied, frame, *plot.map);
   for (const auto& region : plot.regions) draw_region(painter, frame, plot, region);
   for (const auto& reference : plot.references) draw_reference(painter, frame, reference);
   std::vector<SeriesPainter> series;

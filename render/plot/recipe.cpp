@@ -260,6 +260,8 @@ static void describe_keys(Archive& a, PlotRecipe& recipe) {
   recipe.share_y = share == Share::y || share == Share::both;
   recipe.own_ranges = share == Share::none;
   a.choice("legend", recipe.legend, legend_words, "automatic: common if panels show the same series");
+  a.value("table", recipe.table,
+          "also as a table: a row for each of the x axis' names, a column for each series");
   a.choice("kind", recipe.kind, std::span(kind_words).first(8), "of series that nothing else decides");
   a.section("x", recipe.x);
   a.section("y", recipe.y);

@@ -25,6 +25,7 @@ class KeyLister;
 ///     share = "automatic"       # x | y | both: one range per column, per row; numbers at the outer panels only. none: each
 ///                               # panel has its own; automatic: those whose axes have the same label have one
 ///     legend = "automatic"      # automatic | each | common | off; automatic: common if panels show the same series
+///     table = false             # also as a table: a row for each of the x axis' names, a column for each series
 ///     kind = "automatic"        # line | markers | both | band | steps | bars | dots: of series that nothing else decides
 ///     x = { … }                 # axes of all panels, see below
 ///     y = { … }
@@ -150,6 +151,7 @@ struct PlotRecipe {
       labels;  ///< of series that the recipe gives none; set by whoever has the table
   std::int64_t columns = 0;
   bool share_x = false, share_y = false, own_ranges = false;
+  bool table = false;  ///< also as a table (table_sheet.hpp)
   Legend legend = Legend::automatic;
   KindChoice kind = KindChoice::automatic;
   AxisRecipe x, y;

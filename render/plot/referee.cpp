@@ -13,7 +13,7 @@
 namespace chute::plot {
 namespace {
 
-using Kind = Finding::Kind;
+using Fault = Finding::Kind;
 
 bool stands_inside(Box::Kind kind) {
   return kind == Box::Kind::legend || kind == Box::Kind::panel_label || kind == Box::Kind::inset ||
@@ -49,6 +49,7 @@ class Referee {
     texts();
     markers();
     points();
+    outside();
     looks();
     parameters();
     return std::move(found_);
@@ -60,7 +61,7 @@ class Referee {
   std::map<int, Rect> frames_;
   std::vector<Finding> found_;
 
-  void add(Kind kind, int panel, std::string what) { found_.push_back({kind, panel, std::move(what)}); }
+  void add(Fault kind, int panel, std::string what) { found_.push_back({kind, panel, std::move(what)}); }
 
   Rect bounds(const Tag& tag) const {
     Rect all = Rect::nothing();
@@ -81,16 +82,16 @@ class Referee {
     const auto& boxes = layout_.boxes;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const auto& a = boxes[i];
-      if (!page.contains(a.rect)) add(Kind::text_overlap, a.panel, told(a) + " leaves the page");
+      if (!page.contains(a.rect)) add(Fault::text_overlap, a.panel, told(a) + " leaves the page");
       for (std::size_t k = i + 1; k < boxes.size(); ++k) {
         const auto& b = boxes[k];
         if (!a.rect.overlaps(b.rect)) continue;
         const auto &frame = a.kind == Box::Kind::frame ? a : b, &other = a.kind == Box::Kind::frame ? b : a;
         if (frame.kind == Box::Kind::frame && stands_inside(other.kind) && frame.rect.contains(other.rect))
           continue;
-        add(Kind::text_overlap, a.panel, told(a) + " overlaps " + told(b));
+        add(Fault::text_overlap, a.panel, told(a) + " overlaps " + told(b));
       }
-      if (stands_inside(a.kind) && a.kind != Box::Kind::inset) on_data(a);
+      if (stands_inside(a.kind)) on_data(a);
     }
   }
 
@@ -100,9 +101,9 @@ class Referee {
       const bool mark = tag.kind == Tag::Kind::marker || tag.kind == Tag::Kind::beyond;
       if (tag.panel != text.panel && text.panel >= 0) continue;
       if (mark && bounds(tag).overlaps(text.rect))
-        return add(Kind::text_on_data, tag.panel, told(text) + " covers a point of " + tag.series);
+        return add(Fault::text_on_data, tag.panel, told(text) + " covers a point of " + tag.series);
       if (tag.kind == Tag::Kind::curve && crosses(tag, text.rect))
-        return add(Kind::text_on_data, tag.panel, told(text) + " covers the curve of " + tag.series);
+        return add(Fault::text_on_data, tag.panel, told(text) + " covers the curve of " + tag.series);
     }
   }
 
@@ -135,7 +136,7 @@ class Referee {
       const Rect mark = bounds(tag), &f = frame->second;
       const double over =
           std::max({f.left - mark.left, mark.right - f.right, f.top - mark.top, mark.bottom - f.bottom});
-      add(Kind::marker_on_frame, tag.panel,
+      add(Fault::marker_on_frame, tag.panel,
           fmt::format("{} of {}, {:.1f} points over it", tag.kind == Tag::Kind::dots ? "dots" : "a marker",
                       tag.series, over));
     }
@@ -157,8 +158,25 @@ class Referee {
           shown[tag.series] += tag.points;
       for (const auto& [series, count] : wanted)
         if (shown[series] != count)
-          add(Kind::point_lost, static_cast<int>(p),
+          add(Fault::point_lost, static_cast<int>(p),
               fmt::format("{}: {} points, {} of them shown", series, count, shown[series]));
+    }
+  }
+
+  /// Arrows say that a few lie elsewhere; where many do, the range is wrong.
+  void outside() {
+    constexpr double most = 0.5;
+    for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
+      std::size_t inside = 0, beyond = 0;
+      for (const auto& tag : layout_.list.tags) {
+        if (tag.panel != static_cast<int>(p) || is_doubtful(tag.series)) continue;  // which may lie anywhere
+        if (tag.kind == Tag::Kind::marker || tag.kind == Tag::Kind::dots) inside += tag.points;
+        if (tag.kind == Tag::Kind::beyond) beyond += tag.points;
+      }
+      if (figure_.panels[p].map || static_cast<double>(beyond) <= most * static_cast<double>(inside + beyond))
+        continue;
+      add(Fault::mostly_outside, static_cast<int>(p),
+          fmt::format("{} of {} points", beyond, inside + beyond));
     }
   }
 
@@ -221,7 +239,7 @@ class Referee {
           if (a->second.form != b->second.form || unnamed.count(a->first) || unnamed.count(b->first))
             continue;
           if (named.count(a->first) && named.count(b->first)) continue;
-          add(is_same(a->second.color, b->second.color) ? Kind::alike : Kind::color_alone, panel,
+          add(is_same(a->second.color, b->second.color) ? Fault::alike : Fault::color_alone, panel,
               a->first + " and " + b->first);
         }
     }
@@ -231,7 +249,7 @@ class Referee {
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
       const auto& panel = figure_.panels[p];
       if (panel.title.empty() && panel.parameters.empty() && panel.notes.empty())
-        add(Kind::no_parameters, static_cast<int>(p), "panel \"" + panel.label + "\"");
+        add(Fault::no_parameters, static_cast<int>(p), "panel \"" + panel.label + "\"");
     }
   }
 };
@@ -239,8 +257,9 @@ class Referee {
 }  // namespace
 
 const char* name(Finding::Kind kind) {
-  static const char* names[] = {"text overlap", "text on data", "marker on the frame", "point lost",
-                                "colour alone", "alike",        "no parameters"};
+  static const char* names[] = {"text overlap", "text on data",   "marker on the frame",
+                                "point lost",   "mostly outside", "colour alone",
+                                "alike",        "no parameters"};
   return names[static_cast<int>(kind)];
 }
 

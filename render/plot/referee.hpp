@@ -14,6 +14,7 @@ struct Finding {
     text_on_data,     ///< a legend, note or name over a marker or a curve
     marker_on_frame,  ///< one that touches the frame
     point_lost,       ///< a point without marker, dot or arrow
+    mostly_outside,   ///< a panel of which more than half of the points are arrows at its frame
     color_alone,      ///< two series that only colour tells apart
     alike,            ///< two that nothing does
     no_parameters     ///< a panel that does not say what was held fixed

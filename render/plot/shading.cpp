@@ -128,21 +128,26 @@ std::vector<Anchor> anchors(const std::vector<Point>& points, const Rect& frame)
   return found;
 }
 
-/// Sets the label along the line, as far right as can be: where it covers nothing, or at least no other text.
+/// Sets the label along the line, as far right as can be: off the ticks where it covers nothing, or at least no other text.
 /// InputError if there is no such place.
 void label_line(Painter& painter, const Frame& frame, const Reference& reference) {
   const auto ends = anchors(reference_points(frame, reference), frame.rect);
   if (ends.empty()) return;  // the line lies outside
   const auto text = set_text(reference.label, painter.look.legend_size);
   constexpr double gap = 3;
-  for (const bool over_ink : {false, true})
+  const Rect clear_of_ticks = frame.rect.grown(-inset_from_frame);
+  struct Demand {
+    bool off_ticks, off_ink;
+  };
+  for (const auto& [off_ticks, off_ink] : {Demand{true, true}, {true, false}, {false, true}, {false, false}})
     for (const auto& [end, along] : ends)
       for (double side : {gap + text.descent, -gap - text.ascent}) {
         const Point up{along.y(), -along.x()}, at = end - text.width * along + side * up;
         Rect box = Rect::nothing();
         for (double s : {0.0, text.width})
           for (double t : {-text.descent, text.ascent}) box.include(at + s * along + t * up);
-        if (over_ink ? !painter.occupied.clear_of_texts(box) : !painter.occupied.free(box)) continue;
+        if (off_ticks && !clear_of_ticks.contains(box)) continue;
+        if (off_ink ? !painter.occupied.free(box) : !painter.occupied.clear_of_texts(box)) continue;
         if (painter.over_map) painter.list.fill(Path{}.rectangle(box), painter.look.paper.with_alpha(0.75));
         draw_text(painter.list, text, at, painter.look.ink, std::atan2(-along.y(), along.x()));
         return painter.occupied.mark_text(box);

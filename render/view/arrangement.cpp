@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "common/error.hpp"
 
@@ -25,6 +27,8 @@ constexpr double time_width = 6.5;                   // of the line of time, wit
 constexpr double scale_label = 3;                    // beside the scale bar
 constexpr double least_scene = 6;                    // its longer side, where a plot takes room
 constexpr double headline = 2.4;                     // the picture's title, with the space below it
+constexpr double key_gap = 1.2, key_line = 1.45;  // between keys in a row; from one line of them to the next
+constexpr double key_ascent = 0.8;                // of a key's text
 
 Arrangement moved_down(Arrangement places, double by) {
   const plot::Point down{0, by};
@@ -38,6 +42,47 @@ Arrangement moved_down(Arrangement places, double by) {
 
 double longest_scale(const plot::Rect& scene, double em) {
   return std::clamp(0.2 * scene.width(), 3 * em, 9 * em);
+}
+
+std::vector<std::optional<plot::Point>> key_places(const Arrangement& places, std::span<const double> widths,
+                                                   double time_width, double top) {
+  const double em = places.em;
+  const auto row_width = [&](std::span<const double> row) {
+    double sum = -key_gap * em;
+    for (const double width : row) sum += width + key_gap * em;
+    return sum;
+  };
+  // as many as fit beside the time, and the others in a row above it, which may begin left of the scene
+  const double room = places.scene.width() - (time_width > 0 ? time_width + key_gap * em : 0);
+  std::size_t beside = 0;
+  while (beside < widths.size() && row_width(widths.first(beside + 1)) <= room) ++beside;
+  std::vector<std::optional<plot::Point>> ends;
+  const auto put = [&](std::span<const double> row, plot::Point end) {
+    for (const double width : row) {
+      if (end.y() - key_ascent * em < top)
+        ends.emplace_back();
+      else
+        ends.emplace_back(end);
+      end.x() -= width + key_gap * em;
+    }
+  };
+  put(widths.first(beside), places.key);
+  auto above = widths.subspan(beside);
+  // what stands beside the scene and reaches up to that row ends it
+  const double line = places.key.y() - key_line * em;
+  double right = std::numeric_limits<double>::infinity();
+  plot::Rect bar = places.bar;
+  bar.top = std::min(bar.top, places.title.y() - key_ascent * em);
+  for (const auto& [there, rect] :
+       {std::pair{places.has_bar, bar}, std::pair{places.has_gravity, places.gravity},
+        std::pair{places.has_plot, places.plot}})
+    if (there && rect.left >= places.scene.right && rect.top < line + 0.25 * em &&
+        rect.bottom > line - key_ascent * em)
+      right = std::min(right, rect.left);
+  while (!above.empty() && row_width(above) + 0.5 * em > right) above = above.first(above.size() - 1);
+  put(above, {std::max(places.key.x(), row_width(above) + 0.5 * em), line});
+  ends.resize(widths.size());
+  return ends;
 }
 
 namespace {
@@ -162,9 +207,6 @@ Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect
       places.plot = {width - column, top, width - edge, top + tall};
     }
   }
-  // beside the time, if there is room
-  places.has_key =
-      places.has_key && places.scene.width() > (style.arrows && style.chains ? 26 : 17) * places.em;
   places = moved_down(places, head);
   places.headline = {width / 2, (margin + 0.8) * places.em};
   return places;

@@ -1,4 +1,8 @@
 #pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "plot/geometry.hpp"
 #include "view/survey.hpp"
 
@@ -32,6 +36,11 @@ struct BarTexts {
 
 /// `aspect` = width / height of what is to be seen. InputError if the picture is too small for the plot that is wanted.
 Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect, const BarTexts& texts);
+
+/// Right ends of keys of these widths (pixels), above the scene's right end: in a row beside the time's line, which is `time_width`
+/// long, as many as fit, and the others in a row above that, if it stays below `top`. Nothing for one that has no room.
+std::vector<std::optional<plot::Point>> key_places(const Arrangement& places, std::span<const double> widths,
+                                                   double time_width, double top);
 
 /// The room for a scale bar below the scene, pixels; its label stands to the right of it.
 double longest_scale(const plot::Rect& scene, double em);

@@ -42,7 +42,9 @@ FloorShadow::FloorShadow(const Floor& floor, const std::vector<Ball>& balls, con
   size_ = static_cast<int>(std::ceil(2 * floor.radius / cell_));
   dark_.assign(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_), 0);
   const Eigen::Vector3d light = (eye.axes.transpose() * lamp).normalized() + lift * floor.normal;
-  const Eigen::Vector3d fall = light / light.dot(floor.normal);  // upwards by 1
+  Eigen::Vector3d fall = light / light.dot(floor.normal);  // upwards by 1
+  const Eigen::Vector3d aside = fall - floor.normal;
+  if (aside.norm() > floor.reach) fall = floor.normal + floor.reach * aside.normalized();
   for (const Ball& ball : balls) {
     const Eigen::Vector3d p = ball.centre - floor.centre;
     const Eigen::Vector3d at = p - p.dot(floor.normal) * fall;

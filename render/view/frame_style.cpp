@@ -76,7 +76,8 @@ std::string FrameStyle::describe() const {
                     " eye={}:{}:{} tilt={:d} arrows={:d} chains={:d} copies={:d} impacts={:d} occlusion={:d} "
                     "outlines={:d} floor={:d} box={:d} spin={:d} furniture={:d} trail={}",
                     camera.azimuth, camera.elevation, camera.zoom, tilt, arrows, chains, copies, impacts,
-                    occlusion, outlines, floor, box, spin, furniture, trail);
+                    occlusion, outlines.value_or(false), floor.value_or(false), box.value_or(false), spin,
+                    furniture, trail);
 }
 
 const std::array<Rgb, kind_color_count>& kind_colors(Background background) {

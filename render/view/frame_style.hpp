@@ -57,12 +57,12 @@ struct FrameStyle {
   bool copies = false;               ///< faded copies beyond the periodic ends
   bool impacts = false;              ///< marks where grains of the bed were hit so far
   bool occlusion = false;            ///< 3D: ambient occlusion
-  bool outlines = false;             ///< 3D: a dark line inside the rim of every grain
-  bool floor = false;                ///< 3D: shadows on a plane below
-  bool box = false;                  ///< 3D: edges of the periodic box, or of the box of all grains
-  bool spin = true;                  ///< marks that turn with the grains
-  bool furniture = true;             ///< colour bar, time, scale bar, gravity
-  std::string title;                 ///< above everything, in the plots' TeX; empty: none
+  /// 3D: a dark line inside the rim of every grain; shadows on a plane below; edges of the periodic box, or of the box
+  /// of all grains. Not told: not drawn, but see furnish_space in survey.hpp.
+  std::optional<bool> outlines, floor, box;
+  bool spin = true;       ///< marks that turn with the grains
+  bool furniture = true;  ///< colour bar, time, scale bar, gravity
+  std::string title;      ///< above everything, in the plots' TeX; empty: none
   /// The line that tells the time, in the plots' TeX, with one `{}` or `{:.2f}` (digits behind the point) where the time
   /// stands, times time_scale; `none`: no such line. Empty: t with the unit of the data.
   std::string time;

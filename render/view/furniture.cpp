@@ -283,36 +283,49 @@ void Furniture::draw_scale(DisplayList& list, const ScaleBar& scale) const {
 
 /// An arrow of a plain speed near the largest, and a chain of a plain force near the largest, to read the others by.
 void Furniture::draw_key(DisplayList& list, double arrow_pixels, double chain_pixels) const {
-  Point end = places_.key;
-  if (style_.arrows && survey_.speed > 0)
-    end.x() = draw_speed_key(list, end, arrow_pixels) - 1.2 * places_.em;
-  if (style_.chains && survey_.force > 0) draw_force_key(list, end, chain_pixels);
+  const double em = places_.em;
+  std::vector<Key> keys;
+  if (style_.arrows && survey_.speed > 0) keys.push_back(speed_key(arrow_pixels));
+  if (style_.chains && survey_.force > 0) keys.push_back(force_key(chain_pixels));
+  std::vector<double> widths;
+  for (const Key& key : keys) widths.push_back(key.width(em));
+  double time = 0;
+  if (places_.has_time)
+    for (const double t : {survey_.times.front(), survey_.times.back()})
+      time = std::max(time, plot::set_text(time_text(style_, survey_, t), em).width);
+  const double top = style_.title.empty() ? 0 : places_.headline.y() + 0.4 * em;
+  const auto ends = key_places(places_, widths, time, top);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (!ends[i]) continue;
+    const Key& key = keys[i];
+    const Point at{ends[i]->x() - key.text.width, ends[i]->y()},
+        to{at.x() - 0.5 * em, at.y() - 0.3 * small * em}, from{to.x() - key.length, to.y()};
+    const Rgb c = palette_.chain;
+    if (key.is_arrow)
+      draw_arrow(list, from, to, key.thickness, 0.55 * em, ink());
+    else
+      list.stroke(segment(from, to), {key.thickness, {}}, {c.r, c.g, c.b, 1});
+    plot::draw_text(list, key.text, at, ink());
+  }
 }
 
-void Furniture::draw_force_key(DisplayList& list, Point end, double chain_pixels) const {
+Furniture::Key Furniture::force_key(double chain_pixels) const {
   const double em = places_.em, force = plain_below(survey_.force);
-  const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,mg$", force)
-                    : survey_.units == "SI"    ? fmt::format("{:g} N", force)
-                                               : fmt::format("{:g}", force);
-  const auto text = plot::set_text(unit, small * em);
-  const Point at{end.x() - text.width, end.y()}, to{at.x() - 0.5 * em, at.y() - 0.3 * small * em};
-  const double width = std::max(0.5, chain_pixels * force / survey_.force);
-  const Rgb c = palette_.chain;
-  list.stroke(segment({to.x() - 2 * em, to.y()}, to), {width, {}}, {c.r, c.g, c.b, 1});
-  plot::draw_text(list, text, at, ink());
+  // m times g, not milligrams
+  const auto unit = survey_.units == "reduced" ? fmt::format("$F_n = {:g}\\,m\\,g$", force)
+                    : survey_.units == "SI"    ? fmt::format("$F_n = {:g}\\,\\mathrm{{N}}$", force)
+                                               : fmt::format("$F_n = {:g}$", force);
+  return {2 * em, std::max(0.5, chain_pixels * force / survey_.force), false,
+          plot::set_text(unit, small * em)};
 }
 
-double Furniture::draw_speed_key(DisplayList& list, Point end, double arrow_pixels) const {
+Furniture::Key Furniture::speed_key(double arrow_pixels) const {
   const double em = places_.em;
   const double speed = plain_below(std::min(survey_.speed, 8 * em / arrow_pixels));
-  const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,\\sqrt{{gd}}$", speed)
-                    : survey_.units == "SI"    ? fmt::format("{:g} m/s", speed)
-                                               : fmt::format("{:g}", speed);
-  const auto text = plot::set_text(unit, small * em);
-  const Point at{end.x() - text.width, end.y()}, to{at.x() - 0.5 * em, at.y() - 0.3 * small * em};
-  draw_arrow(list, {to.x() - speed * arrow_pixels, to.y()}, to, std::max(1.5, 0.085 * em), 0.55 * em, ink());
-  plot::draw_text(list, text, at, ink());
-  return to.x() - speed * arrow_pixels;
+  const auto unit = survey_.units == "reduced" ? fmt::format("$v = {:g}\\,\\sqrt{{gd}}$", speed)
+                    : survey_.units == "SI"    ? fmt::format("$v = {:g}\\,\\mathrm{{m/s}}$", speed)
+                                               : fmt::format("$v = {:g}$", speed);
+  return {speed * arrow_pixels, std::max(1.5, 0.085 * em), true, plot::set_text(unit, small * em)};
 }
 
 void Furniture::draw_gravity(DisplayList& list, const Directions& directions) const {

@@ -5,6 +5,7 @@
 
 #include "image/image.hpp"
 #include "plot/display_list.hpp"
+#include "plot/mathtext.hpp"
 #include "view/arrangement.hpp"
 #include "view/painter.hpp"
 #include "view/series_plot.hpp"
@@ -61,9 +62,15 @@ class Furniture {
   ScaleBar kept_inside(ScaleBar scale) const;
   void draw_scale(plot::DisplayList& list, const ScaleBar& scale) const;
   void draw_key(plot::DisplayList& list, double arrow_pixels, double chain_pixels) const;
-  double draw_speed_key(plot::DisplayList& list, plot::Point end,
-                        double arrow_pixels) const;  ///< its left end
-  void draw_force_key(plot::DisplayList& list, plot::Point end, double chain_pixels) const;
+  /// What tells how long an arrow, or how wide a chain, is for how much: a mark `length` pixels long, and a text behind it.
+  struct Key {
+    double length, thickness;
+    bool is_arrow;
+    plot::TextBox text;
+    double width(double em) const { return length + 0.5 * em + text.width; }
+  };
+  Key speed_key(double arrow_pixels) const;
+  Key force_key(double chain_pixels) const;
   void draw_gravity(plot::DisplayList& list, const Directions& directions) const;
   plot::Color ink() const { return {palette_.ink.r, palette_.ink.g, palette_.ink.b, 1}; }
   plot::Color quiet() const { return {palette_.quiet.r, palette_.quiet.g, palette_.quiet.b, 1}; }

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
-constexpr int drawing_version = 5;
+constexpr int drawing_version = 6;
 constexpr const char* drawn_from = "Drawn-From";
 
 /// Adds a part such that where it ends matters.
@@ -231,18 +231,21 @@ class FrameDrawer {
 };
 
 /// Options that would do nothing are refused: whoever asks for them expects something else.
-void check_dimensions(const FrameStyle& style, const Survey& survey) {
+void check_options(const FrameStyle& style, const Survey& survey) {
   struct Option {
     bool given;
     const char* name;
   };
   const bool flat = survey.dimensions == 2;
   const Camera usual;
+  const auto refuse = [](bool given, const char* option, const char* why) {
+    if (given) throw InputError(fmt::format("{} does nothing here: {}", option, why));
+  };
   const Option in_space[] = {
       {style.occlusion, "--occlusion"},
-      {style.outlines, "--outlines"},
-      {style.floor, "--floor"},
-      {style.box, "--box"},
+      {style.outlines.has_value(), "--outlines"},
+      {style.floor.has_value(), "--floor"},
+      {style.box.has_value(), "--box"},
       {style.camera.azimuth != usual.azimuth || style.camera.elevation != usual.elevation ||
            style.camera.zoom != usual.zoom,
        "--camera AZIMUTH:ELEVATION[:ZOOM]"}};
@@ -253,13 +256,65 @@ void check_dimensions(const FrameStyle& style, const Survey& survey) {
     if (option.given)
       throw InputError(fmt::format("{} does nothing here: these grains lie in {}", option.name,
                                    flat ? "a plane" : "space"));
-  if (flat && style.up && style.up->head<2>().isZero(0))
-    throw InputError("--up along z does nothing here: these grains lie in a plane");
-  if (style.copies && !(survey.domain.sizes()[0] > 0))
-    throw InputError("--copies does nothing here: the frames name no period along x");
-  for (const Cut& cut : style.cuts)
-    if (flat && cut.axis == 2)
-      throw InputError("--cut along z does nothing here: these grains lie in a plane");
+  constexpr const char* in_a_plane = "these grains lie in a plane";
+  refuse(flat && style.up && style.up->head<2>().isZero(0), "--up along z", in_a_plane);
+  refuse(style.copies && !(survey.domain.sizes()[0] > 0), "--copies", "the frames name no period along x");
+  for (const Cut& cut : style.cuts) refuse(flat && cut.axis == 2, "--cut along z", in_a_plane);
+  refuse(style.arrows && !(survey.speed > 0), "--arrows", "the frames tell no velocities, or nothing moves");
+  for (const Option& option :
+       {Option{style.range.has_value(), "--range"}, Option{!style.map.empty(), "--colormap"}}) {
+    refuse(option.given && survey.field.is_none(), option.name, "nothing is coloured");
+    refuse(option.given && !survey.categories.empty(), option.name, "kinds have colours of their own");
+  }
+}
+
+/// What does nothing in this run, but may do something in another of the same command.
+std::vector<std::string> idle_options(const FrameStyle& style, const Survey& survey) {
+  std::vector<std::string> notes;
+  if (style.tilt && survey.slope == 0)
+    notes.emplace_back("--tilt does nothing here: gravity points down as it is");
+  if (style.trail > 0 && survey.times.size() == 1)
+    notes.emplace_back("--trails does nothing here: there is one frame");
+  return notes;
+}
+
+/// Maps of cells have axes and a bar, and of all that tells how grains look nothing but the colours' range.
+void check_map_options(const FrameStyle& style, bool plot) {
+  struct Option {
+    bool given;
+    const char* name;
+  };
+  const Camera usual;
+  const auto& c = style.camera;
+  const bool camera = c.window || c.all || c.follow || c.azimuth != usual.azimuth ||
+                      c.elevation != usual.elevation || c.zoom != usual.zoom;
+  for (const Option& option : {Option{camera, "--camera"},
+                               Option{style.tilt, "--tilt"},
+                               Option{style.up.has_value(), "--up"},
+                               Option{style.arrows, "--arrows"},
+                               Option{style.chains, "--chains"},
+                               Option{style.copies, "--copies"},
+                               Option{style.impacts, "--impacts"},
+                               Option{style.occlusion, "--occlusion"},
+                               Option{style.outlines.has_value(), "--outlines"},
+                               Option{style.floor.has_value(), "--floor"},
+                               Option{style.box.has_value(), "--box"},
+                               Option{style.trail > 0, "--trails"},
+                               Option{!style.cuts.empty(), "--cut"},
+                               Option{!style.species.empty(), "--species"},
+                               Option{!style.spin, "--no-spin"},
+                               Option{!style.furniture, "--bare"},
+                               Option{!style.title.empty(), "--title"},
+                               Option{!style.time.empty(), "--time"},
+                               Option{style.font_size > 0, "--font-size"},
+                               Option{plot, "--plot"}})
+    if (option.given)
+      throw InputError(fmt::format("{} does nothing here: these are maps of cells, no grains", option.name));
+  if (!style.map.empty() && style.map != "viridis" && style.map != "rdbu")
+    throw InputError(
+        fmt::format("--colormap {} does nothing here: maps of cells have viridis or rdbu", style.map));
+  if (style.background == Background::transparent)
+    throw InputError("--background transparent does nothing here: maps of cells have white or dark ground");
 }
 
 /// How time in the movie goes against the time of the frames: "a second of the movie is 0.2 s: 5 times slower than true".
@@ -302,7 +357,8 @@ std::vector<std::size_t> frame_numbers(const FrameRange& range, std::size_t coun
   return numbers;
 }
 
-RenderReport render_run(const RenderJob& job) {
+RenderReport render_run(const RenderJob& asked) {
+  RenderJob job = asked;
   job.style.check();
   if (job.output.empty() && job.movie.empty())
     throw InputError("neither a folder for pictures nor a movie is asked for");
@@ -322,7 +378,10 @@ RenderReport render_run(const RenderJob& job) {
   const auto numbers = frame_numbers(job.frames, frames.size());
   if (are_cells(frames) && job.speed > 0)
     throw InputError("--speed does nothing here: maps are not drawn between their times");
-  if (are_cells(frames)) return render_cells(job, frames, numbers);
+  if (are_cells(frames)) {
+    check_map_options(job.style, !job.plot.empty());
+    return render_cells(job, frames, numbers);
+  }
   if (job.style.chains &&
       std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
     throw InputError(job.source.string() +
@@ -342,7 +401,8 @@ RenderReport render_run(const RenderJob& job) {
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
   found.series = std::move(series);
   const Beside beside(job, frames);
-  check_dimensions(job.style, found);
+  check_options(job.style, found);
+  if (found.dimensions == 3) furnish_space(job.style, found);
   if (!job.output.empty()) {
     std::error_code error;
     fs::create_directories(job.output, error);
@@ -358,6 +418,7 @@ RenderReport render_run(const RenderJob& job) {
 
   RenderReport report;
   report.left_out = found.left_out;
+  report.notes = idle_options(job.style, found);
   if (!job.style.camera.window && !job.style.camera.follow)
     report.outside = found.outside, report.about = found.about;
   for (const auto& frame : frames)

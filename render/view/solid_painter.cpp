@@ -18,7 +18,7 @@ SolidLook look_of(const Studio& studio) {
   look.ground = studio.palette.ground, look.ground_alpha = studio.palette.ground_alpha;
   look.ink = {.06, .06, .07}, look.spot = studio.palette.mark;
   look.occlusion = studio.style.occlusion ? studio.survey.diameter / 2 : 0;
-  look.outlines = studio.style.outlines;
+  look.outlines = studio.style.outlines.value_or(false);
   return look;
 }
 
@@ -41,9 +41,7 @@ class SolidPainter : public Painter {
     const auto axes = Eye::axes_of(towards, studio_.style.tilt && strength > 0 ? Vector3d(-down) : normal_);
 
     box_ = survey.bounds;
-    if (const auto& lattice = survey.lattice; lattice && studio_.style.box)  // it is to be seen whole
-      for (int corner = 0; corner < 8; ++corner)
-        box_.extend(lattice->origin + lattice->edges * Vector3d(corner & 1, corner >> 1 & 1, corner >> 2));
+    if (has_box()) box_.extend(box_of_space(survey));  // it is to be seen whole
     if (copies()) box_.min().x() -= copy_reach * period(), box_.max().x() += copy_reach * period();
     furniture = std::make_unique<Furniture>(studio_, Eye::aspect(box_, axes));
     eye_ = Eye::on_box(box_, axes, furniture->places().scene, camera.zoom);
@@ -72,8 +70,8 @@ class SolidPainter : public Painter {
     if (studio_.style.trail) add_trails(data, colors);
     if (studio_.style.chains) add_chains(data.links);
     if (studio_.style.arrows) add_arrows(frame);
-    if (studio_.style.box) add_box();
-    if (studio_.style.floor) add_floor();
+    if (has_box()) add_box();
+    if (studio_.style.floor.value_or(false)) add_floor();
     for (const auto& wall : data.walls) add_wall(wall);
     scene_.draw(content_, into);
     if (overflows() && studio_.style.furniture) keep_inside(into);
@@ -91,6 +89,7 @@ class SolidPainter : public Painter {
 
   double period() const { return studio_.survey.domain.sizes().x(); }
   bool copies() const { return studio_.style.copies && period() > 0; }
+  bool has_box() const { return studio_.style.box.value_or(false); }
   /// The length that is one pixel where the eye looks.
   double pixel() const { return eye_.distance / eye_.focal; }
 
@@ -136,11 +135,15 @@ class SolidPainter : public Painter {
     return best;
   }
 
+  /// Chains run inside the grains: those shrink so that they show.
+  double seen_radius(const read::GrainFrame& frame, std::size_t i) const {
+    constexpr double shrunk = 0.4;
+    return frame.radius[i] * (studio_.style.chains && !studio_.is_bed(frame, i) ? shrunk : 1);
+  }
+
   void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
     const bool bed = studio_.is_bed(frame, i);
-    // chains run inside the grains: those shrink so that they show
-    constexpr double shrunk = 0.4;
-    Ball ball{frame.centre(i), frame.radius[i] * (studio_.style.chains && !bed ? shrunk : 1), color};
+    Ball ball{frame.centre(i), seen_radius(frame, i), color};
     if (orientation_ && !bed)
       ball.orientation = Eigen::Quaterniond(orientation_->at(i, 0), orientation_->at(i, 1),
                                             orientation_->at(i, 2), orientation_->at(i, 3))
@@ -210,6 +213,7 @@ class SolidPainter : public Painter {
     }
   }
 
+  /// They begin where they leave the grain, which would hide a part of their length otherwise.
   void add_arrows(const read::GrainFrame& frame) {
     const auto* velocity = frame.find(fields::velocity.name);
     if (!velocity || velocity->components != 3) return;
@@ -219,7 +223,8 @@ class SolidPainter : public Painter {
       const Vector3d along = unit * Vector3d(velocity->at(i, 0), velocity->at(i, 1), velocity->at(i, 2));
       const double length = along.norm(), head = std::min(7 * thin, 0.5 * length);
       if (length < 2 * thin) continue;
-      const Vector3d from = frame.centre(i), tip = from + along, neck = tip - head / length * along;
+      const Vector3d from = frame.centre(i) + seen_radius(frame, i) / length * along, tip = from + along,
+                     neck = tip - head / length * along;
       content_.rods.push_back({from, neck, thin, thin, studio_.palette.ink});
       content_.rods.push_back({neck, tip, 0.36 * head, 0, studio_.palette.ink});
     }
@@ -248,10 +253,7 @@ class SolidPainter : public Painter {
       }
       return;
     }
-    Eigen::AlignedBox3d box = studio_.survey.bounds;
-    for (int c = 0; c < 3; ++c)
-      if (studio_.survey.domain.sizes()[c] > 0)
-        box.min()[c] = studio_.survey.domain.min()[c], box.max()[c] = studio_.survey.domain.max()[c];
+    const auto box = box_of_space(studio_.survey);
     for (int corner = 0; corner < 8; ++corner)
       for (int c = 0; c < 3; ++c)
         if (const int other = corner | 1 << c; other != corner)
@@ -264,6 +266,11 @@ class SolidPainter : public Painter {
     Floor floor;
     const Vector3d half = box_.diagonal() / 2;
     floor.centre = box_.center() - half[studio_.survey.up_axis] * normal_, floor.normal = normal_;
+    // of a tall column as far as it is wide, or the shadow would run under the texts beside it
+    double width = 0;
+    for (int c = 0; c < 3; ++c)
+      if (c != studio_.survey.up_axis) width = std::max(width, box_.sizes()[c]);
+    floor.reach = width / box_.sizes()[studio_.survey.up_axis];
     floor.radius = half.norm() + box_.diagonal()[studio_.survey.up_axis];  // the shadow of the highest grain
     content_.floor = floor;
   }

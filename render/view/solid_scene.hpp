@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct Pane {
 struct Floor {
   Eigen::Vector3d centre, normal;  ///< of length 1
   double radius;                   ///< beyond it, nothing
+  /// How far the shadow of something falls to the side, at most, for its height.
+  double reach = std::numeric_limits<double>::infinity();
 };
 
 struct SolidContent {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <future>
+#include <limits>
 #include <numbers>
 
 #include "common/error.hpp"
@@ -29,12 +30,18 @@ double round_up(double x) {
   return std::copysign(std::ceil(leading / step - 1e-9) * step * power, x);
 }
 
-/// Decimals that tell all these numbers apart as they are, at most `most`.
-int decimals_for(const std::vector<double>& values, int most) {
+/// Decimals that tell the times of frames as they are, at most `most`. Times that are a whole number of steps, and so a little
+/// off a round one, are told as that: to a thousandth of what lies between two frames.
+int decimals_for(const std::vector<double>& times, int most) {
+  constexpr double part = 1e-3;
+  double between = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (times[i] > times[i - 1]) between = std::min(between, times[i] - times[i - 1]);
+  const double slack = std::isfinite(between) ? part * between : 0;
   for (int decimals = 0; decimals < most; ++decimals) {
     const double unit = std::pow(10.0, -decimals);
-    const bool enough = std::all_of(values.begin(), values.end(), [&](double v) {
-      return std::abs(v - unit * std::round(v / unit)) <= 1e-6 * unit + 1e-12 * std::abs(v);
+    const bool enough = std::all_of(times.begin(), times.end(), [&](double v) {
+      return std::abs(v - unit * std::round(v / unit)) <= slack + 1e-6 * unit + 1e-12 * std::abs(v);
     });
     if (enough) return decimals;
   }
@@ -246,6 +253,30 @@ Survey Surveyor::finish() {
   s.force = forces_.quantile(0.99);
   s.time_decimals = s.times.size() > 1 ? decimals_for(s.times, 4) : decimals_for(s.times, 2);
   return s;
+}
+
+Eigen::AlignedBox3d box_of_space(const Survey& survey) {
+  Eigen::AlignedBox3d box;
+  if (const auto& lattice = survey.lattice) {
+    for (int corner = 0; corner < 8; ++corner)
+      box.extend(lattice->origin +
+                 lattice->edges * Eigen::Vector3d(corner & 1, corner >> 1 & 1, corner >> 2));
+    return box;
+  }
+  box = survey.bounds;
+  for (int c = 0; c < 3; ++c)
+    if (survey.domain.sizes()[c] > 0)
+      box.min()[c] = survey.domain.min()[c], box.max()[c] = survey.domain.max()[c];
+  return box;
+}
+
+void furnish_space(FrameStyle& style, const Survey& survey) {
+  constexpr double much_larger = 1.3;
+  const bool fits =
+      (box_of_space(survey).sizes().array() <= much_larger * survey.bounds.sizes().array()).all();
+  if (!style.outlines) style.outlines = style.furniture;
+  if (!style.floor) style.floor = style.furniture;
+  if (!style.box) style.box = style.furniture && fits;
 }
 
 std::string Survey::describe() const {

@@ -109,4 +109,11 @@ class Surveyor {
   void choose_range();
 };
 
+/// The box of a space: that which the file tells; else that in which the run is periodic, and of what is in view along other axes.
+Eigen::AlignedBox3d box_of_space(const Survey& survey);
+
+/// What tells depths in a space, as far as the style does not say: silhouettes, a floor with shadows, and the box, unless only the
+/// grains are wanted. A box that is much larger than what is in view would make that small, and must be asked for.
+void furnish_space(FrameStyle& style, const Survey& survey);
+
 }  // namespace chute::view

@@ -22,6 +22,8 @@
 #include "plot/layout.hpp"
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
+#include "plot/style.hpp"
+#include "plot/table_sheet.hpp"
 #include "read/iso_time.hpp"
 #include "read/table.hpp"
 #include "run/version.hpp"
@@ -209,6 +211,46 @@ fs::path find_recipe(const std::string& name) {
                                hint.empty() ? "" : ", did you mean " + hint + "?"));
 }
 
+namespace {
+
+/// What a figure's comment "y: velocity; y_err: of eight runs" is below its table, where errors stand behind a ±.
+std::string note_of_table(const std::string& comment) {
+  auto text = comment.substr(comment.find_first_not_of(' ', 2));
+  constexpr std::string_view column = "y_err";
+  for (std::size_t at = 0; (at = text.find(column, at)) != std::string::npos;)
+    text.replace(at, column.size(), "±");
+  return text;
+}
+
+/// ID-table.csv, .md, .pdf, .svg and .png beside the figure: a table is read, typeset and computed with, and each wants its own.
+void write_table(const plot::TableSheet& sheet, const plot::Look& look, const fs::path& beside,
+                 const plot::Metadata& metadata) {
+  const auto file = [&](const char* extension) { return fs::path(beside.string() + "-table" + extension); };
+  std::vector<std::string> comments{sheet.title};
+  comments.insert(comments.end(), sheet.notes.begin(), sheet.notes.end());
+  std::vector<std::string> names;
+  for (const auto& name : sheet.series) names.push_back(name), names.push_back(name + "_err");
+  std::vector<std::string_view> columns{"panel", "name"};
+  columns.insert(columns.end(), names.begin(), names.end());
+  io::Csv csv(comments, columns);
+  for (const auto& group : sheet.groups)
+    for (const auto& row : group.rows) {
+      std::vector<io::Csv::Cell> cells;
+      for (const auto& cell : row.cells)
+        for (const double v : {cell.value, cell.error})
+          cells.push_back(std::isfinite(v) ? io::Csv::Cell(v) : std::nullopt);
+      csv.row({group.heading, row.name}, cells);
+    }
+  write_atomically(file(".csv"), csv.text());
+  write_atomically(file(".md"), plot::markdown(sheet));
+  const auto layout = plot::lay_out(sheet, look);
+  plot::draw_png(layout.list, file(".png"), plot::default_dpi, metadata);
+  plot::draw_pdf(layout.list, file(".pdf"), metadata);
+  plot::draw_svg(layout.list, file(".svg"), metadata);
+}
+
+}  // namespace
+
 std::vector<std::string> make_figure(const fs::path& file, const fs::path& directory,
                                      const figures::FigureContext& context,
                                      const std::function<bool(double)>& progress) {
@@ -225,6 +267,13 @@ std::vector<std::string> make_figure(const fs::path& file, const fs::path& direc
   const auto figure = figure_of(recipe, table, text, beside(".csv"));
   const auto layout = plot::lay_out(figure);
   const auto& list = layout.list;
+  std::optional<plot::TableSheet> sheet;
+  if (recipe.plot.table) {
+    std::vector<std::string> notes;
+    for (const auto& comment : table.comments)
+      if (comment.starts_with("y:")) notes.push_back(note_of_table(comment));
+    sheet = plot::table_sheet(figure, recipe.title, notes);
+  }
   fs::create_directories(directory);
   remove_leftovers(directory);
   if (!is_source) write_atomically(beside(".csv"), text);
@@ -235,6 +284,7 @@ std::vector<std::string> make_figure(const fs::path& file, const fs::path& direc
   plot::draw_png(list, beside(".png"), plot::default_dpi, metadata);
   plot::draw_pdf(list, beside(".pdf"), metadata);
   plot::draw_svg(list, beside(".svg"), metadata);
+  if (sheet) write_table(*sheet, plot::look_of(figure), directory / file.stem(), metadata);
   std::vector<std::string> findings;
   for (const auto& finding : plot::review(figure, layout))
     findings.push_back(fmt::format(

@@ -10,6 +10,7 @@
 
 #include "app/manual.hpp"
 #include "app/say.hpp"
+#include "app/settings.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
@@ -84,7 +85,8 @@ int main(int argc, char** argv) {
     app::finish_output();
     return done;
   } catch (const CLI::ParseError& error) {
-    return end(wrong, error.what());
+    const auto stray = app::stray_setting(argc, argv);
+    return end(wrong, stray.empty() ? std::string_view(error.what()) : stray);
   } catch (const InputError& error) {
     return end(wrong, error.what());
   } catch (const std::filesystem::filesystem_error& error) {

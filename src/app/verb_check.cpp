@@ -6,6 +6,7 @@
 
 #include "app/input.hpp"
 #include "app/progress.hpp"
+#include "app/settings.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
@@ -110,7 +111,7 @@ void add_check(CLI::App& app) {
   verb->add_option("scenes", a->scenes, "scene files (TOML); -: standard input");
   verb->add_flag("--keys", a->keys, "print every key that a scene can have, with what it means");
   verb->add_flag("--json", a->json, "for programs: keys as in README.md");
-  verb->add_option("--set", a->settings, "change a key: --set grains.count=100")->allow_extra_args(false);
+  add_settings(*verb, "--set", "KEY=VALUE", a->settings, "change a key: grains.count=100");
   verb->footer("Example: chute check scenes/chute-2d.toml");
   verb->callback([a] {
     if (a->keys) fmt::print("{}", scene::keys_table());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 #include <tuple>
 
@@ -35,8 +36,8 @@ struct RenderArguments {
   int trails = 0;
   std::vector<std::string> cuts;
   bool tilt = false, arrows = false, chains = false, copies = false, impacts = false, occlusion = false,
-       outlines = false, floor = false, box = false, no_spin = false, bare = false, follow = false,
-       quiet = false;
+       no_spin = false, bare = false, follow = false, quiet = false, fps_given = false;
+  std::optional<bool> outlines, floor, box;
 };
 
 /// `follow`, `follow:mean`, `follow:ID`; false if it is something else.
@@ -172,6 +173,9 @@ view::RenderJob job_of(const RenderArguments& a) {
   style.title = a.title, style.time = a.time, style.time_scale = a.time_scale, style.font_size = a.font_size;
   if (!a.up.empty()) style.up = read_up(a.up);
   job.speed = a.speed;
+  if (a.time_scale != 1 && (a.time.empty() || a.time == "none"))
+    throw InputError("--time-scale: say with --time what the time is in then, such as --time \"t = {} ms\"");
+  if (a.fps_given && a.movie.empty()) throw InputError("--fps is of a movie; name one with --movie");
   if (a.bare && !a.plot.empty())
     throw InputError("--bare draws the grains alone, --plot a curve beside them");
   if (a.bare && (!a.title.empty() || !a.time.empty()))
@@ -264,7 +268,7 @@ void add_render(CLI::App& app) {
   verb->add_option(
       "--movie", a->movie,
       "make a movie: .mp4 (H.264), .webm (VP9), .mov (ProRes), .gif or .png (animated); needs ffmpeg");
-  verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
+  auto* fps = verb->add_option("--fps", a->fps, "frames of the movie per second")->capture_default_str();
   verb->add_option(
           "--speed", a->speed,
           "simulated time in a second of the movie: 0.25 is slow motion in reduced units; what lies between frames "
@@ -305,9 +309,14 @@ void add_render(CLI::App& app) {
                    "leave out grains beyond a place: x>VALUE, z<VALUE; several are possible")
       ->delimiter(',');
   verb->add_flag("--occlusion", a->occlusion, "ambient occlusion (in space)");
-  verb->add_flag("--outlines", a->outlines, "a dark rim around every grain (in space)");
-  verb->add_flag("--floor", a->floor, "shadows on a floor below (in space)");
-  verb->add_flag("--box", a->box, "edges of the periodic box (in space)");
+  const auto usual_in_space = [verb](const char* names, std::optional<bool>& given, const char* text) {
+    verb->add_flag_function(
+        names, [&given](std::int64_t n) { given = n > 0; },
+        std::string(text) + " (in space, where it is usual but with --bare)");
+  };
+  usual_in_space("--outlines,!--no-outlines", a->outlines, "a dark rim around every grain");
+  usual_in_space("--floor,!--no-floor", a->floor, "shadows on a floor below");
+  usual_in_space("--box,!--no-box", a->box, "edges of the periodic box");
   verb->add_option("--trails", a->trails, "draw where each grain was in the N frames before");
   verb->add_option(
           "--plot", a->plot,
@@ -336,7 +345,10 @@ void add_render(CLI::App& app) {
   verb->footer(
       "Pictures that are there and were drawn from the same data in the same style are kept.\n"
       "Example: chute render out/chute-2d --tilt --plot v_x --movie chute.mp4");
-  verb->callback([a] { a->follow ? follow(*a) : draw(*a); });
+  verb->callback([a, fps] {
+    a->fps_given = fps->count() > 0;
+    a->follow ? follow(*a) : draw(*a);
+  });
 }
 
 }  // namespace chute::app

@@ -7,6 +7,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
+#include "app/settings.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "experiments/perform.hpp"
@@ -102,8 +103,8 @@ void add_run(CLI::App& app) {
                    "scene file (TOML), or a run directory for its scene; -: standard input")
       ->required();
   verb->add_option("-o,--output", a->directory, "run directory; default out/NAME-OF-SCENE");
-  verb->add_option("--set", a->settings, "change a key of the scene: --set contact.normal.restitution=0.7")
-      ->allow_extra_args(false);
+  add_settings(*verb, "--set", "KEY=VALUE", a->settings,
+               "change a key of the scene: contact.normal.restitution=0.7");
   verb->add_option("--threads", a->threads, "threads; results do not depend on it")
       ->check(CLI::Range(1, 1024));
   verb->add_flag("--resume", a->resume,

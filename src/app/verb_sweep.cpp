@@ -6,6 +6,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
+#include "app/settings.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 #include "sweep/sweep.hpp"
@@ -78,11 +79,9 @@ void add_sweep(CLI::App& app) {
   auto a = std::make_shared<SweepArguments>();
   verb->add_option("scene", a->scene, "scene file (TOML) with [sweep], or the folder of a sweep")->required();
   verb->add_option("-o,--output", a->directory, "folder for the tables and the finished points");
-  verb->add_option(
-          "--add", a->more,
-          "KEY=VALUE,VALUE: more values of an axis, or an axis more; with --resume what is done stays")
-      ->allow_extra_args(false);
-  verb->add_option("--set", a->settings, "change a key of the scene")->allow_extra_args(false);
+  add_settings(*verb, "--add", "KEY=VALUE,VALUE", a->more,
+               "more values of an axis, or an axis more; with --resume what is done stays");
+  add_settings(*verb, "--set", "KEY=VALUE", a->settings, "change a key of the scene");
   verb->add_option("--jobs", a->jobs, "points side by side; results do not depend on it")
       ->check(CLI::Range(1, 1024));
   verb->add_option("--shard", a->shard, "I/N: do only the I-th of N parts; the parts share the folder");

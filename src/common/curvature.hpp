@@ -11,12 +11,17 @@ namespace chute {
 /// How far a curve may pass from the lines through its points, as a share of its range: half a line's width in a figure.
 inline constexpr double unseen_bend = 1.5e-3;
 
+/// The same of a closed form, whose points cost nothing: so little that its corners are not seen either, where a long straight line
+/// ends at a small angle.
+inline constexpr double smooth_bend = 3e-4;
+
 /// Rounds of halving; a jump gets two points in each.
 inline constexpr int most_halvings = 7;
 
 /// Of a curve through points in ascending x the places, halfway between neighbours, where it bends by more than is unseen:
 /// looked up, they make it smoother, and after some rounds there are none. With `log` halfway in the logarithm.
-inline std::vector<double> where_bent(const std::vector<double>& x, const std::vector<double>& y, bool log) {
+inline std::vector<double> where_bent(const std::vector<double>& x, const std::vector<double>& y, bool log,
+                                      double allowed = unseen_bend) {
   std::vector<double> between;
   if (x.size() < 3) return between;
   double low = y[0], high = y[0];
@@ -27,7 +32,7 @@ inline std::vector<double> where_bent(const std::vector<double>& x, const std::v
   for (std::size_t i = 1; i + 1 < x.size(); ++i) {
     const double part = (at(i) - at(i - 1)) / (at(i + 1) - at(i - 1));
     const double bend = std::abs(y[i] - (y[i - 1] + part * (y[i + 1] - y[i - 1])));
-    if (bend > unseen_bend * (high - low)) halve[i - 1] = halve[i] = true;
+    if (bend > allowed * (high - low)) halve[i - 1] = halve[i] = true;
   }
   for (std::size_t i = 0; i + 1 < x.size(); ++i)
     if (halve[i]) between.push_back(log ? std::exp((at(i) + at(i + 1)) / 2) : (x[i] + x[i + 1]) / 2);
@@ -45,7 +50,7 @@ inline std::vector<std::pair<double, double>> by_curvature(const std::function<d
   for (int round = 0; round < most_halvings; ++round) {
     std::vector<double> x, y;
     for (const auto& [a, b] : points) x.push_back(a), y.push_back(b);
-    const auto more = where_bent(x, y, false);
+    const auto more = where_bent(x, y, false, smooth_bend);
     if (more.empty()) break;
     for (const double at : more) points.emplace_back(at, f(at));
     std::sort(points.begin(), points.end());

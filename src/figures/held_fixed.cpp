@@ -93,6 +93,15 @@ std::vector<std::string> held_fixed(const DataRecipe& recipe, const std::filesys
     set.push_back(sweep.x.setting(sweep.x.points(false).front()));
     look_at(sweep.panel, set, varied);
   }
+  // a quotient has what both of its parts have
+  for (const auto& ratio : recipe.ratios)
+    for (const auto& part : {ratio.of, ratio.over.value_or(ratio.of)}) {
+      const auto of = common.find(part);
+      if (of == common.end() || !of->second) continue;
+      const auto values = *of->second;
+      if (!common.count(ratio.panel)) panels.push_back(ratio.panel);
+      keep_common(common[ratio.panel], values);
+    }
   std::vector<std::string> comments;
   for (const auto& panel : panels) {
     std::string line = panel.empty() ? "parameters:" : "parameters " + panel + ":";

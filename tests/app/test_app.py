@@ -105,6 +105,18 @@ class BadScenes(App):
             with self.subTest(setting=setting):
                 self.assertIn(says, self.refused("run", self.scene, "-o", self.path("out"), "--set", setting))
 
+    def test_every_key_has_a_set_of_its_own(self):
+        out = self.path("out")
+        says = self.refused("run", self.scene, "-o", out, "--set", "grains.count=3", "seed=2")
+        self.assertIn("seed=2: each key needs its own --set: --set grains.count=3 --set seed=2", says)
+        for verb in (["run"], ["check"], ["sweep"]):
+            help_text = self.run_chute(*verb, "--help").stdout
+            self.assertIn("--set KEY=VALUE  ", help_text)
+        # a scene may stand behind a setting, and settings may come one by one
+        done = self.run_chute("check", "--set", "grains.count=3", "--set", "seed=2", self.scene)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn("count = 3\n", done.stdout)
+
     def test_grains_that_do_not_fit_leave_no_folder(self):
         says = self.refused("run", self.scene, "-o", self.path("out"), "--set", "grains.start.spacing=0.1")
         self.assertIn("spacing", says)

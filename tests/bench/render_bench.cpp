@@ -69,7 +69,7 @@ void draw_spheres(benchmark::State& state) {
 }
 void draw_all_options(benchmark::State& state) {
   view::FrameStyle style;
-  style.occlusion = style.outlines = style.floor = style.box = true;
+  style.occlusion = true, style.outlines = style.floor = style.box = true;
   draw(state, packing(static_cast<std::size_t>(state.range(0))), style);
 }
 

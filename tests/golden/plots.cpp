@@ -11,6 +11,8 @@
 #include "plot/mathtext.hpp"
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
+#include "plot/style.hpp"
+#include "plot/table_sheet.hpp"
 
 namespace chute::golden {
 namespace {
@@ -55,6 +57,25 @@ void lengthen_errors(Figure& figure) {
 void widen_range(Figure& figure) {
   auto& y = figure.panels[0].y;
   y.min = y.min.value_or(0), y.max = 1.02 * y.max.value_or(1);
+}
+
+/// A figure over names, as a table.
+Golden golden_table(const std::string& name, const std::vector<std::pair<std::string, Change>>& changes) {
+  const auto draw_table = [name](const Change& change) {
+    auto figure = load(name);
+    change(figure);
+    const auto sheet = table_sheet(figure, "A pushed cylinder, in short",
+                                   {"±: half of its range where the law leaves it ringing"});
+    return rasterise(lay_out(sheet, look_of(figure)).list, dpi);
+  };
+  Golden golden;
+  golden.name = name;
+  golden.made_by =
+      fmt::format("plot::table_sheet at {} dpi of data/{}.toml and data/{}.csv", dpi, name, name);
+  golden.draw = [=] { return draw_table([](Figure&) {}); };
+  for (const auto& [what, change] : changes)
+    golden.mutants.push_back({what, [=, change = change] { return draw_table(change); }});
+  return golden;
 }
 
 /// All the type there is: the subset of TeX on one page.
@@ -188,6 +209,11 @@ std::vector<Golden> plot_goldens() {
       golden_of("parameters", {{"ranges of their own", [](Figure& f) { f.own_ranges = true; }},
                                {"one digit of a parameter",
                                 [](Figure& f) { f.panels[1].parameters = f.panels[0].parameters; }}}),
+      golden_table("table",
+                   {{"one digit of a number", [](Figure& f) { f.panels[1].series[0].y[1] += 2e-3; }},
+                    {"an error left out", [](Figure& f) { f.panels[1].series[2].y_err[0] = unknown; }},
+                    {"two columns exchanged",
+                     [](Figure& f) { std::swap(f.panels[1].series[1].name, f.panels[1].series[2].name); }}}),
   };
 }
 

@@ -11,6 +11,7 @@
 #include "plot/parameters.hpp"
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
+#include "plot/style.hpp"
 
 using namespace chute::plot;
 
@@ -148,6 +149,49 @@ TEST_CASE("points outside given limits become arrows, and none is lost") {
   REQUIRE(arrows(figure) == 1);
 }
 
+TEST_CASE("a panel whose points are mostly elsewhere is a fault") {
+  auto figure = one_panel({points("v", {1, 2, 3, 4}, {1, 2, 3, 4})});
+  figure.panels[0].y.max = 3.5;
+  REQUIRE(arrows(figure) == 1);
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  figure.panels[0].y.max = 1.5;
+  REQUIRE(count(figure, Finding::Kind::mostly_outside) == 1);
+}
+
+TEST_CASE("a legend says what a hollow marker means, also where whole series are told to be hollow") {
+  auto figure = one_panel({slope("a", 1, Kind::both), slope("b", 2, Kind::both)});
+  const auto samples = [&] {
+    std::vector<std::string> names;
+    for (const auto& tag : lay_out(figure).list.tags)
+      if (tag.kind == Tag::Kind::sample) names.push_back(tag.series);
+    return names;
+  };
+  REQUIRE(samples() == std::vector<std::string>{"$a$", "$b$"});
+  figure.panels[0].series[0].hollow = true;
+  REQUIRE(samples() == std::vector<std::string>{"$a$", "$b$", "not settled"});
+}
+
+TEST_CASE("numbers that change with the size of their frame leave no gap beside them") {
+  // at one size the axis has ticks such as 0.5, which leave it the room for fewer, 0 and 1, and so on
+  Figure figure = one_panel({slope("a", 1, Kind::line)});
+  auto& s = figure.panels[0].series[0];
+  s.x = {0, 1, 5}, s.y = {0, -0.39, 3.6};
+  figure.panels[0].y.label = "$\\psi_f$";
+  for (double width = 60; width < 110; width += 0.5) {
+    figure.width = width;
+    const auto layout = lay_out(figure);
+    double label = 0, numbers = 1e9;
+    for (const auto& box : layout.boxes) {
+      if (box.kind == Box::Kind::axis_label) label = std::max(label, box.rect.right);
+      if (box.kind == Box::Kind::tick_label && box.rect.right < layout.list.width / 3)
+        numbers = std::min(numbers, box.rect.left);
+    }
+    INFO("width " << width);
+    REQUIRE(numbers - label < 6);  // points
+    REQUIRE(review(figure, layout).empty());
+  }
+}
+
 TEST_CASE("wherever limits and points are, no marker is cut and no point is lost") {
   std::mt19937_64 engine(11);
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) / 9007199254740992.0; };
@@ -239,6 +283,57 @@ TEST_CASE(
   REQUIRE(review(figure, lay_out(figure)).empty());
 }
 
+TEST_CASE("what is in doubt stretches an axis a little, and is an arrow where it lies farther off") {
+  auto figure = one_panel({points("v", {0, 1, 2, 3}, {1, 2, 3, 5})});
+  auto& panel = figure.panels[0];
+  const double just_below_the_end = 5 - 1e-3, a_little_above = 5 + 0.25 * (5 - 1),
+               far_above = 5 + 0.4 * (5 - 1);
+  panel.series.push_back(points("v unsettled", {1, 2}, {just_below_the_end, a_little_above}));
+  REQUIRE(arrows(figure) == 0);
+  REQUIRE(review(figure, lay_out(figure)).empty());  // none is cut by the frame
+  panel.series.back() = points("v unsettled", {1, 2}, {just_below_the_end, far_above});
+  REQUIRE(arrows(figure) == 1);
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  // on a logarithmic axis the same in decades: one of the decade's third, not of the whole
+  panel.y.scale = Scale::log;
+  panel.series[0].y = {1, 2, 5, 10}, panel.series.back().y = {3, 10 * std::pow(10, 0.25)};
+  REQUIRE(arrows(figure) == 0);
+  panel.series.back().y = {3, 10 * std::pow(10, 0.4)};
+  REQUIRE(arrows(figure) == 1);
+}
+
+TEST_CASE("an inset keeps off the data where there is room, and the referee finds one that does not") {
+  // a curve through the corner that is asked for
+  auto figure = one_panel({slope("a", 1, Kind::line)});
+  auto& panel = figure.panels[0];
+  panel.series[0].x = {0, 0.3, 1}, panel.series[0].y = {0, 1, 1};
+  panel.legend = Place::off;
+  Inset& inset = panel.insets.emplace_back();
+  inset.plot.series = panel.series, inset.place = Place::top_left;
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  inset.width = 0.85, inset.height = 0.8;  // room nowhere
+  REQUIRE(count(figure, Finding::Kind::text_on_data) == 1);
+}
+
+TEST_CASE("a line's name keeps off the frame's ticks") {
+  auto figure = one_panel({points("v", {-0.2, 0, 0.2}, {1, 2, 3})});
+  auto& panel = figure.panels[0];
+  panel.x.min = -0.22, panel.x.max = 0.22;
+  for (const double at : {-0.2, 0.2})
+    panel.references.push_back({Reference::Kind::vertical, at, "$\\gamma$"});
+  const auto layout = lay_out(figure);
+  Rect frame;
+  for (const auto& box : layout.boxes)
+    if (box.kind == Box::Kind::frame) frame = box.rect;
+  std::size_t names = 0;
+  for (const auto& box : layout.boxes) {
+    if (box.kind != Box::Kind::note) continue;
+    ++names;
+    REQUIRE(frame.grown(-look_of(Style::journal).major_tick).contains(box.rect));
+  }
+  REQUIRE(names == 2);
+}
+
 TEST_CASE("a crowd of dots becomes a density that holds all of them") {
   Panel panel;
   auto s = points("impacts", {}, {}, Kind::dots);
@@ -256,6 +351,28 @@ TEST_CASE("a crowd of dots becomes a density that holds all of them") {
   panel.map.reset(), panel.series[0].x.resize(1);
   draw_crowd_as_density(panel);
   REQUIRE_FALSE(panel.map);  // few stay dots
+}
+
+TEST_CASE("crowds that show one quantity have one range of it, unless told") {
+  for (const bool own : {false, true}) {
+    Figure figure;
+    figure.own_ranges = own;
+    for (const double scale : {1.0, 3.0}) {
+      auto& panel = figure.panels.emplace_back();
+      panel.x.label = "x", panel.y.label = "v";
+      auto s = points("impacts", {}, {}, Kind::dots);
+      for (int i = 0; i < 20000; ++i)
+        s.x.push_back(std::fmod(0.61803398875 * i, 1)), s.y.push_back(scale * s.x.back());
+      panel.series = {s};
+    }
+    draw_crowds_as_densities(figure);
+    REQUIRE((figure.panels[0].map && figure.panels[1].map));
+    REQUIRE((*figure.panels[0].y.max > 2) != own);
+    double sum = 0;
+    for (const double v : figure.panels[0].map->values)
+      if (std::isfinite(v)) sum += std::pow(10, v);
+    REQUIRE(sum == Approx(20000));
+  }
 }
 
 TEST_CASE("panels that show one quantity have one range, unless told") {

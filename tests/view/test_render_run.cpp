@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
@@ -196,15 +197,34 @@ TEST_CASE("What cannot be drawn is said in one line") {
     CHECK_THROWS_WITH(view::render_run(job), Contains("no contact networks"));
   }
   SECTION("options that do nothing in a plane") {
-    bool view::FrameStyle::*const options[] = {&view::FrameStyle::occlusion, &view::FrameStyle::outlines,
-                                               &view::FrameStyle::floor, &view::FrameStyle::box};
-    for (const auto option : options) {
+    using Change = std::function<void(view::FrameStyle&)>;
+    for (const auto& change :
+         {Change([](auto& s) { s.occlusion = true; }), Change([](auto& s) { s.outlines = true; }),
+          Change([](auto& s) { s.floor = false; }), Change([](auto& s) { s.box = true; })}) {
       auto bad = job;
-      bad.style.*option = true;
+      change(bad.style);
       CHECK_THROWS_WITH(view::render_run(bad), Contains("does nothing here: these grains lie in a plane"));
     }
     job.style.camera.azimuth = 60;
     CHECK_THROWS_WITH(view::render_run(job), Contains("--camera AZIMUTH"));
+  }
+  SECTION("colours of what has none") {
+    job.style.color = "none", job.style.range = {0, 1};
+    CHECK_THROWS_WITH(view::render_run(job), Contains("--range does nothing here: nothing is coloured"));
+    job.style.range.reset(), job.style.map = "batlow";
+    CHECK_THROWS_WITH(view::render_run(job), Contains("--colormap does nothing here: nothing is coloured"));
+    job.style.color = "id", job.style.map.clear();
+    CHECK_NOTHROW(view::render_run(job));
+    fs::remove_all(job.output);
+  }
+  SECTION("arrows of grains that rest") {
+    auto still = grains::small_chute();
+    for (auto& array : still.arrays)
+      if (array.name == "velocity") std::fill(array.values.begin(), array.values.end(), 0);
+    const auto rest = folder.path / "rest";
+    grains::write(still, rest / "frames/0.vtk");
+    job.source = rest, job.style.arrows = true;
+    CHECK_THROWS_WITH(view::render_run(job), Contains("--arrows does nothing here"));
   }
   SECTION("no impacts to mark") {
     job.style.impacts = true;
@@ -219,6 +239,48 @@ TEST_CASE("What cannot be drawn is said in one line") {
     CHECK_THROWS_AS(view::render_run(job), InputError);
   }
   CHECK_FALSE(fs::exists(folder.path / "out/000001.png"));
+}
+
+TEST_CASE("In space grains stand in their box over a floor, unless told otherwise or bare") {
+  Folder folder;
+  auto space = grains::cube(3);
+  space.domain.max() = {3, 0, 0};
+  grains::write(space, folder.path / "frames/0.vtk");
+  auto job = job_for(folder, "out");
+  const auto draw = [&](auto&& change) {
+    auto other = job;
+    change(other.style);
+    fs::remove_all(other.output);
+    view::render_run(other);
+    return image::read_png(other.output / "000000.png");
+  };
+  const auto usual = draw([](auto&) {});
+  const auto all = draw([](auto& s) { s.outlines = s.floor = s.box = true; });
+  CHECK(usual == all);
+  CHECK_FALSE(usual == draw([](auto& s) { s.outlines = false; }));
+  CHECK_FALSE(usual == draw([](auto& s) { s.floor = false; }));
+  CHECK_FALSE(usual == draw([](auto& s) { s.box = false; }));
+  // a box that would make the grains small is drawn where it is asked for
+  auto wide = space;
+  wide.domain.max() = {40, 0, 0};
+  grains::write(wide, folder.path / "frames/0.vtk");
+  const auto without = draw([](auto& s) { s.box = false; });
+  CHECK(draw([](auto&) {}) == without);
+  CHECK_FALSE(draw([](auto& s) { s.box = true; }) == without);
+  grains::write(space, folder.path / "frames/0.vtk");
+  const auto bare = draw([](auto& s) { s.furniture = false; });
+  CHECK(bare == draw([](auto& s) { s.furniture = false, s.outlines = s.floor = s.box = false; }));
+  CHECK_FALSE(bare == draw([](auto& s) { s.furniture = false, s.floor = true; }));
+}
+
+TEST_CASE("What would do nothing in this run alone is told") {
+  Folder folder;
+  make_run(folder.path, 1);
+  auto job = job_for(folder, "out");
+  job.style.trail = 3;
+  const auto told = view::render_run(job).notes;
+  REQUIRE(told.size() == 1);
+  CHECK_THAT(told[0], Contains("--trails does nothing here: there is one frame"));
 }
 
 TEST_CASE("a movie of a speed shows as much time, whatever lies between its frames") {

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "grains.hpp"
@@ -166,16 +167,42 @@ TEST_CASE("Spheres, rods and occlusion draw, the same every time") {
   CHECK(plain == grains::picture(frame, style));
   CHECK(plain.pixel(0, 0)[3] == 0);
   CHECK(plain.pixel(80, 60)[3] == 255);
-  for (bool view::FrameStyle::*option :
-       {&view::FrameStyle::tilt, &view::FrameStyle::arrows, &view::FrameStyle::copies,
-        &view::FrameStyle::occlusion, &view::FrameStyle::outlines, &view::FrameStyle::floor,
-        &view::FrameStyle::box}) {
+  using Change = std::function<void(view::FrameStyle&)>;
+  for (const auto& change :
+       {Change([](auto& s) { s.tilt = true; }), Change([](auto& s) { s.arrows = true; }),
+        Change([](auto& s) { s.copies = true; }), Change([](auto& s) { s.occlusion = true; }),
+        Change([](auto& s) { s.outlines = true; }), Change([](auto& s) { s.floor = true; }),
+        Change([](auto& s) { s.box = true; })}) {
     auto other = style;
-    other.*option = true;
+    change(other);
     const auto image = grains::picture(frame, other);
     CHECK_FALSE(image == plain);
     CHECK(image == grains::picture(frame, other));
   }
+}
+
+TEST_CASE("All of a velocity arrow is seen: it begins at the surface of its grain") {
+  auto frame = grains::cube(1);
+  for (auto& array : frame.arrays) array.values.clear();
+  frame.x.clear(), frame.y.clear(), frame.z.clear(), frame.radius.clear();
+  grains::add(frame, 0, 0, 0, 0.5, 2), grains::add(frame, 10, 0, 0, 0.5, 0);
+  auto style = small();
+  style.width = 800, style.camera.azimuth = 0, style.camera.elevation = 90;  // from above, x to the right
+  style.color = "none";
+  const auto covered = [](const image::Image& image) {
+    int most = 0;
+    for (int y = 0; y < image.height; ++y) {
+      int count = 0;
+      for (int x = 0; x < image.width; ++x) count += image.pixel(x, y)[3] > 128;
+      most = std::max(most, count);
+    }
+    return most;
+  };
+  const double two_diameters = covered(grains::picture(frame, style));
+  style.arrows = true;
+  const double with_arrow = covered(grains::picture(frame, style));
+  // the fastest has an arrow of 1.6 mean diameters (Studio::arrow_length)
+  CHECK(with_arrow - two_diameters == Approx(1.6 * two_diameters / 2).epsilon(0.06));
 }
 
 TEST_CASE("A rod joins two points") {
@@ -252,6 +279,20 @@ TEST_CASE("A ball's shadow lies on the floor, away from the light") {
   CHECK(dark(1.5) > 20);
   CHECK(dark(1.5) > dark(-1.5) + 5);
   CHECK(dark(-3.2) == 0);
+}
+
+TEST_CASE("The shadow of what is high falls no farther aside than it may") {
+  view::Eye eye;
+  eye.axes = view::Eye::axes_of({0, -1, 1}, {0, 0, 1}), eye.distance = 100, eye.focal = 1500,
+  eye.at = {100, 75};
+  const auto shadow_below = [&](double reach) {
+    const view::SolidContent content{.balls = {{{0, 0, 30}, 1, {1, 1, 1}}},  // above the picture
+                                     .floor = view::Floor{{0, 0, 0}, {0, 0, 1}, 40, reach}};
+    return picture(content, eye).pixel(100, 75)[3];
+  };
+  CHECK(shadow_below(0) > 30);
+  CHECK(shadow_below(0.01) > 30);
+  CHECK(shadow_below(std::numeric_limits<double>::infinity()) == 0);
 }
 
 TEST_CASE("What is cut away is not drawn") {

@@ -116,9 +116,17 @@ TEST_CASE("Nothing in a frame overlaps or leaves it, whatever its shape") {
     boxes.push_back({0, places.headline.y() - 1.1 * em, double(width), places.headline.y() + 0.4 * em});
   REQUIRE(places.has_plot == !survey.series.empty());
   if (places.has_plot) boxes.push_back(places.plot);
-  if (places.has_key)
-    boxes.push_back(
-        {places.key.x() - 9 * em, places.key.y() - 0.8 * em, places.key.x(), places.key.y() + 0.25 * em});
+  const std::vector<double> keys{GENERATE(5.0, 11.0) * em, 6 * em};
+  if (places.has_key) {
+    const auto ends =
+        view::key_places(places, keys, 6 * em, style.title.empty() ? 0 : places.headline.y() + 0.4 * em);
+    // both are there where no title stands above and no plot beside
+    if (style.title.empty() && !places.has_plot) CHECK((ends[0] && ends[1]));
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (ends[i])
+        boxes.push_back(
+            {ends[i]->x() - keys[i], ends[i]->y() - 0.8 * em, ends[i]->x(), ends[i]->y() + 0.25 * em});
+  }
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     CAPTURE(i, boxes[i].left, boxes[i].top, boxes[i].right, boxes[i].bottom);
     CHECK(page.contains(boxes[i]));

@@ -111,6 +111,9 @@ TEST_CASE("All times are written with the same number of decimals") {
   CHECK(decimals({0, 0.1, 0.30000000000000004}) == 1);
   CHECK(decimals({0.125, 1}) == 3);
   CHECK(decimals({std::numbers::pi, 1}) == 4);
+  CHECK(decimals({0, 0.5 + 4e-5, 1}) == 1);  // frames that are not a whole number of steps apart
+  CHECK(decimals({0, 0.003, 0.006}) == 3);
+  CHECK(decimals({0, 1, 1.001}) == 3);
 }
 
 TEST_CASE("No frames, no survey") {
