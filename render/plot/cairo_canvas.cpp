@@ -4,8 +4,9 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-#include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "common/error.hpp"
@@ -17,20 +18,19 @@ namespace {
 /// Cairo keeps fonts in caches beyond the life of a drawing, so these live as long as the program. Cairo
 /// locks them.
 cairo_font_face_t* cairo_face(Face face) {
-  static const auto faces = [] {
-    std::array<cairo_font_face_t*, 4> made{};
-    static FT_Library library = nullptr;
-    if (FT_Init_FreeType(&library) != 0) throw WorkError("cannot start FreeType");
-    for (std::size_t i = 0; i < made.size(); ++i) {
-      const auto path = Fonts::file(static_cast<Face>(i));
-      FT_Face file = nullptr;
-      if (FT_New_Face(library, path.c_str(), 0, &file) != 0)
-        throw WorkError(path + ": cannot read this font; it belongs to the package fonts-stix");
-      made[i] = cairo_ft_font_face_create_for_ft_face(file, FT_LOAD_NO_HINTING);
-    }
-    return made;
-  }();
-  return faces[static_cast<std::size_t>(face)];
+  static std::mutex mutex;
+  static std::map<Face, cairo_font_face_t*> made;
+  static FT_Library library = nullptr;
+  const std::lock_guard lock(mutex);
+  if (!library && FT_Init_FreeType(&library) != 0) throw WorkError("cannot start FreeType");
+  auto& found = made[face];
+  if (found) return found;
+  const auto [path, index] = Fonts::source(face);
+  FT_Face file = nullptr;
+  if (FT_New_Face(library, path.c_str(), index, &file) != 0)
+    throw WorkError(path + ": cannot read this font" +
+                    (family_of(face) == 0 ? "; it belongs to the package fonts-stix" : ""));
+  return found = cairo_ft_font_face_create_for_ft_face(file, FT_LOAD_NO_HINTING);
 }
 
 class Canvas {
@@ -106,7 +106,7 @@ class Canvas {
 
   void ink(Color c) { cairo_set_source_rgba(cairo_, c.r, c.g, c.b, c.a); }
 
-  static void trace(cairo_t* cairo, const Path& path, Point by = {}) {
+  static void trace(cairo_t* cairo, const Path& path, Point by = {0, 0}) {
     std::size_t k = 0;
     const auto& p = path.points;
     for (auto verb : path.verbs) switch (verb) {

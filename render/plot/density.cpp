@@ -36,7 +36,7 @@ Side side_of(Axis& axis, const std::vector<double>& values, std::size_t cells) {
 }  // namespace
 
 void draw_crowd_as_density(Panel& panel) {
-  const bool alone = panel.series.size() == 1 && !panel.map && !panel.chains;
+  const bool alone = panel.series.size() == 1 && !panel.map && !panel.chains && !panel.right;
   if (!alone || panel.series[0].kind != Kind::dots || panel.series[0].x.size() <= most_dots ||
       panel.x.scale == Scale::log || panel.y.scale == Scale::log)
     return;

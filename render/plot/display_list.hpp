@@ -32,8 +32,17 @@ struct StrokeItem {
   Color color;
 };
 
-/// The typefaces that text is set in: one family, four faces.
+/// The typefaces that text is set in: those of STIXGeneral, and behind them four for each family that was asked for (fonts.hpp).
 enum class Face : std::uint8_t { regular, italic, bold, bold_italic };
+inline constexpr int faces_in_family = 4;
+
+inline bool is_italic(Face face) { return static_cast<int>(face) % 2 == 1; }
+inline bool is_bold(Face face) { return static_cast<int>(face) % faces_in_family >= 2; }
+inline int family_of(Face face) { return static_cast<int>(face) / faces_in_family; }
+/// The face of another family that leans and weighs the same.
+inline Face in_family(Face face, int family) {
+  return static_cast<Face>(static_cast<int>(face) % faces_in_family + faces_in_family * family);
+}
 
 struct Glyph {
   std::uint32_t id = 0;  ///< in the face
@@ -75,6 +84,7 @@ struct Tag {
   enum class Kind {
     marker,  ///< one point of a series
     dots,    ///< a cloud
+    area,    ///< the cells of a series
     curve,   ///< a line, an outline, a band's edge
     beyond,  ///< an arrow at the frame for points outside
     sample,  ///< of a legend

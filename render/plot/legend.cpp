@@ -21,7 +21,7 @@ void LegendBlock::put(const std::string& name, Kind kind, const SeriesLook& look
 
 void LegendBlock::add(const Series& series) {
   const auto& ink = looks_->at(series.name);
-  if (is_doubtful(series.name) && !series.label) {
+  if (is_doubtful(series.name) && !series.label && series.kind != Kind::cells) {
     SeriesLook any;
     any.color = look_->ink, any.hollow = true;
     const auto word = series.name.substr(base_name(series.name).size() + 1);

@@ -89,7 +89,13 @@ class WorkingDay(unittest.TestCase):
         self.assertEqual(len(places), 20)
         self.assertLessEqual({row["series"] for row in places},
                              {"stopped", "steady", "accelerating", "runaway", "unsettled"})
-        self.assertGreater(len({row["series"] for row in places}), 1)
+        phases = {row["series"] for row in places}
+        self.assertGreater(len(phases), 1)
+        with open(self.path("out", "figures", "diagram.svg"), encoding="utf-8") as file:
+            picture = file.read().lower()
+        tints = ["#b6c7d8", "#e8bdb3", "#b6dbcf", "#cab7c9", "#f3dfbf"]  # 0.3 of the first colours on white
+        drawn = sum('fill="%s"' % tint in picture for tint in tints)
+        self.assertEqual(drawn, len(phases))  # every phase has cells
 
     def test_4_spheres_of_another_program(self):
         self.assertIn("3 points", self.good(4).stdout)
