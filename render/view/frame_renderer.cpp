@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/error.hpp"
+#include "view/camera_path.hpp"
 #include "view/following.hpp"
 #include "view/furniture.hpp"
 #include "view/painter.hpp"
@@ -38,8 +39,25 @@ struct FrameRenderer::Inside {
       : survey(found),
         following(style.camera.follow ? std::optional<Following>(survey) : std::nullopt),
         studio(style, following ? following->around_focus() : survey) {
+    if (style.camera_keys.empty()) make_painter();
+  }
+
+  void make_painter() {
+    painter.reset();  // its context goes first
     painter =
         survey.dimensions == 2 ? make_flat_painter(studio, furniture) : make_solid_painter(studio, furniture);
+  }
+
+  /// Where the camera moves, scale bar and arrows change with it: all is made anew for its next place.
+  void move_camera(double time) {
+    if (studio.style.camera_keys.empty()) return;
+    const Camera now = camera_at(studio.style, time);
+    const Camera& last = studio.style.camera;
+    const bool same = now.azimuth == last.azimuth && now.elevation == last.elevation &&
+                      now.zoom == last.zoom && now.window == last.window;
+    if (same && painter) return;
+    studio.style.camera = now;
+    make_painter();
   }
 };
 
@@ -49,6 +67,7 @@ FrameRenderer::~FrameRenderer() = default;
 
 const image::Image& FrameRenderer::draw(const FrameData& data) {
   auto& in = *inside_;
+  in.move_camera(data.time);
   in.painter->paint(in.following ? in.following->moved(data) : data, in.picture);
   if (data.frame.size() > 0 && image::is_blank(in.picture))
     throw WorkError(

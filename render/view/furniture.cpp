@@ -139,7 +139,7 @@ Furniture::Furniture(const Studio& studio, double aspect)
       palette_(studio.palette),
       title_(survey_.field.title(survey_.units)) {
   double title = 0, labels = 0, kinds = 0;
-  if (!survey_.field.is_none()) {
+  if (survey_.field.has_bar()) {
     constexpr double size = 100;  // any: widths in em are asked for
     const auto measure = [&](const std::string& label) {
       labels = std::max(labels, plot::set_text(label, small * size).width / size);
@@ -290,14 +290,17 @@ void Furniture::draw_key(DisplayList& list, double arrow_pixels, double chain_pi
 }
 
 void Furniture::draw_force_key(DisplayList& list, Point end, double chain_pixels) const {
-  const double em = places_.em, force = plain_below(survey_.force);
+  // a chain that would be thicker than the line of text is no key: a weaker one is shown then
+  constexpr double thickest = 1.1;  // em
+  const double em = places_.em,
+               force = plain_below(survey_.force * std::min(1.0, thickest * places_.em / chain_pixels));
   const auto unit = survey_.units == "reduced" ? fmt::format("${:g}\\,mg$", force)
                     : survey_.units == "SI"    ? fmt::format("{:g} N", force)
                                                : fmt::format("{:g}", force);
   const auto text = plot::set_text(unit, small * em);
   const Point at{end.x() - text.width, end.y()}, to{at.x() - 0.5 * em, at.y() - 0.3 * small * em};
   const double width = std::max(0.5, chain_pixels * force / survey_.force);
-  const Rgb c = palette_.chain;
+  const Rgb c = studio_.chain_color(force);
   list.stroke(segment({to.x() - 2 * em, to.y()}, to), {width, {}}, {c.r, c.g, c.b, 1});
   plot::draw_text(list, text, at, ink());
 }

@@ -36,6 +36,9 @@ struct Studio {
     return survey.has_fixed && frame.is_fixed(grain);
   }
   Rgb kind_color(std::ptrdiff_t kind) const;  ///< of survey.categories
+  Rgb chain_color(double force) const;
+  /// Grains that are seen through need not shrink or fade for chains to show.
+  bool is_glassy() const { return style.opacity < 1; }
   /// Width of the chain of nearly the largest force, in the files' unit.
   double widest_chain() const { return 0.42 * survey.diameter; }
   /// Length of a velocity arrow for speed 1, in the files' unit.

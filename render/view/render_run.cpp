@@ -82,7 +82,7 @@ std::vector<std::string> wanted_arrays(const FrameStyle& style, bool by_id) {
   std::vector<std::string> names{color_array(style.color)};
   if (style.color.empty() || style.arrows) names.emplace_back(fields::velocity.name);
   if (style.spin) names.emplace_back(fields::angle.name), names.emplace_back(fields::orientation.name);
-  if (style.trail || style.impacts || by_id) names.emplace_back(fields::id.name);
+  if (style.trail || style.impacts || style.chains || by_id) names.emplace_back(fields::id.name);
   return names;
 }
 
@@ -121,6 +121,13 @@ std::vector<Moment> moments_of(const std::vector<std::size_t>& numbers, const Su
   return moments;
 }
 
+/// Pictures between frames need more digits of the time than frames do: as many as tell two of them apart, up to four.
+int decimals_between(const Survey& survey, double step) {
+  constexpr int most = 4;
+  const int needed = static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
+  return std::max(survey.time_decimals, std::clamp(needed, 0, most));
+}
+
 /// Draws single frames of a run; one per process.
 class FrameDrawer {
  public:
@@ -150,8 +157,9 @@ class FrameDrawer {
     const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
     for (std::size_t i = oldest; i < number; ++i) load(i);
     auto files = read::read_files(file);
-    const std::string network =
-        job_.style.chains && !file.contacts.empty() ? read_file(file.contacts) : std::string();
+    const bool has_network = job_.style.chains && !file.contacts.empty();
+    read::FileBytes network;
+    if (has_network) network = read::network_bytes(file);
 
     const fs::path picture =
         job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
@@ -159,7 +167,7 @@ class FrameDrawer {
     add_part(hash, common_);
     add_part(hash, fmt::format("{}", survey_.times[number]));
     for (const auto& part : files) add_part(hash, part.bytes);
-    add_part(hash, network);
+    add_part(hash, network.bytes);
     for (std::size_t i = oldest; i < number; ++i) add_part(hash, earlier_[i - first_earlier_].hash);
     const std::size_t impacts = beside_.until(survey_.times[number]);
     add_part(hash, fmt::format("impacts {}", impacts));
@@ -175,13 +183,13 @@ class FrameDrawer {
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
     auto frame = read::parse_frame(std::move(files), job_.meanings, wanted_);
     double time = survey_.times[number];
+    std::vector<read::ForceLink> links;
+    if (has_network) links = read::parse_network(std::move(network), job_.meanings, &frame);
     if (moment.part > 0) {
       frame = between(frame, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_),
                       moment.part);
       time += moment.part * (survey_.times[number + 1] - time);
     }
-    const auto links =
-        network.empty() ? std::vector<read::ForceLink>() : read::parse_network(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
     for (std::size_t i = oldest; i < number; ++i) trail.push_back(&earlier_[i - first_earlier_].frame);
     FrameData data{.frame = frame, .time = time, .links = links, .earlier = trail, .walls = beside_.walls};
@@ -238,6 +246,7 @@ void check_dimensions(const FrameStyle& style, const Survey& survey) {
   };
   const bool flat = survey.dimensions == 2;
   const Camera usual;
+  const auto& keys = style.camera_keys;
   const Option in_space[] = {
       {style.occlusion, "--occlusion"},
       {style.outlines, "--outlines"},
@@ -245,8 +254,11 @@ void check_dimensions(const FrameStyle& style, const Survey& survey) {
       {style.box, "--box"},
       {style.camera.azimuth != usual.azimuth || style.camera.elevation != usual.elevation ||
            style.camera.zoom != usual.zoom,
-       "--camera AZIMUTH:ELEVATION[:ZOOM]"}};
-  const Option in_plane[] = {{style.camera.window.has_value(), "--camera X0:X1:Y0:Y1"}};
+       "--camera AZIMUTH:ELEVATION[:ZOOM]"},
+      {!keys.empty() && !keys.front().camera.window, "--camera-at TIME=AZIMUTH:ELEVATION[:ZOOM]"}};
+  const Option in_plane[] = {
+      {style.camera.window.has_value(), "--camera X0:X1:Y0:Y1"},
+      {!keys.empty() && keys.front().camera.window.has_value(), "--camera-at TIME=X0:X1:Y0:Y1"}};
   const std::span<const Option> wrong =
       flat ? std::span<const Option>(in_space) : std::span<const Option>(in_plane);
   for (const Option& option : wrong)
@@ -263,7 +275,8 @@ void check_dimensions(const FrameStyle& style, const Survey& survey) {
 }
 
 /// How time in the movie goes against the time of the frames: "a second of the movie is 0.2 s: 5 times slower than true".
-std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& numbers, double rate) {
+std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& numbers, double rate,
+                        double speed) {
   if (!survey.has_times || numbers.size() < 2) return "";
   const auto step = [&](std::size_t i) { return survey.times[numbers[i + 1]] - survey.times[numbers[i]]; };
   double least = step(0), most = step(0);
@@ -271,7 +284,7 @@ std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& nu
     least = std::min(least, step(i)), most = std::max(most, step(i));
   const double mean = (survey.times[numbers.back()] - survey.times[numbers.front()]) /
                       static_cast<double>(numbers.size() - 1);
-  const double second = mean * rate;
+  const double second = speed > 0 ? speed : mean * rate;
   if (!(second > 0) || !std::isfinite(second)) return "";
   std::string text = fmt::format("a second of the movie is {:.3g}", second);
   if (!survey.clock.empty()) {
@@ -285,7 +298,7 @@ std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& nu
     text += survey.units == "reduced" ? " sqrt(d/g)" : " in the files' unit of time";
   }
   constexpr double even = 0.01;  // of the mean: what rounded times differ by
-  if (most - least > even * mean)
+  if (speed == 0 && most - least > even * mean)
     text += fmt::format("; frames are {:.3g} to {:.3g} apart and shown equally long", least, most);
   return text;
 }
@@ -318,15 +331,17 @@ RenderReport render_run(const RenderJob& job) {
     throw InputError(fmt::format("radius {}: must be > 0", *r));
   const bool is_gif = !job.movie.empty() && Movie::kind_of(job.movie) == Movie::Kind::gif;
 
-  const auto frames = read::find_frames(job.source);
+  auto frames = read::find_frames(job.source);
+  if (!job.contacts.empty()) read::attach_networks(frames, job.contacts);
   const auto numbers = frame_numbers(job.frames, frames.size());
   if (are_cells(frames) && job.speed > 0)
     throw InputError("--speed does nothing here: maps are not drawn between their times");
   if (are_cells(frames)) return render_cells(job, frames, numbers);
   if (job.style.chains &&
       std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
-    throw InputError(job.source.string() +
-                     ": the run kept no contact networks, which force chains are drawn from");
+    throw InputError(
+        job.source.string() +
+        ": no contact networks are there, which force chains are drawn from; --contacts names files of them");
   const auto tell = [&](const char* what, std::size_t done, std::size_t all) {
     if (job.progress) job.progress(what, done, all);
   };
@@ -335,9 +350,12 @@ RenderReport render_run(const RenderJob& job) {
     series = read_time_series(job.series.empty() ? job.source / "series.csv" : job.series, job.plot);
   Survey found = survey(frames, job.style, job.meanings, job.jobs,
                         [&](std::size_t done) { tell("reading", done, frames.size()); });
+  if (!job.style.camera_keys.empty() && !found.has_times)
+    throw InputError(job.source.string() + ": the frames have no times, which --camera-at needs");
   if (job.speed > 0 && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which --speed needs");
   const auto moments = moments_of(numbers, found, job);
+  if (job.speed > 0) found.time_decimals = decimals_between(found, job.speed / job.frames_per_second);
   if (!series.empty() && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
   found.series = std::move(series);
@@ -358,13 +376,13 @@ RenderReport render_run(const RenderJob& job) {
 
   RenderReport report;
   report.left_out = found.left_out;
-  if (!job.style.camera.window && !job.style.camera.follow)
+  if (!job.style.camera.window && !job.style.camera.follow && job.style.camera_keys.empty())
     report.outside = found.outside, report.about = found.about;
   for (const auto& frame : frames)
     if (frame.piece && !frame.piece->cut_after.empty())
       report.notes.push_back(frame.piece->cut_after + "; that frame is left out");
   if (!job.movie.empty())
-    if (auto note = movie_clock(found, numbers, job.frames_per_second); !note.empty())
+    if (auto note = movie_clock(found, numbers, job.frames_per_second, job.speed); !note.empty())
       report.notes.push_back(std::move(note));
   const auto& style = job.style;
   const auto draw = [&](const std::vector<Moment>& which, bool wanted, const Take& take) {

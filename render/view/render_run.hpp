@@ -28,8 +28,10 @@ struct RenderJob {
   double speed =
       0;  ///< of a movie: simulated time in a second of it, drawn between frames where needed; 0: a frame a picture
   FrameRange frames;
-  int jobs = 1;                   ///< processes that draw at once
-  read::Meanings meanings;        ///< what arrays of other programs' files are
+  int jobs = 1;  ///< processes that draw at once
+  std::filesystem::path
+      contacts;             ///< networks of another program (read::attach_networks); empty: the run's own
+  read::Meanings meanings;  ///< what arrays of other programs' files are
   std::vector<std::string> plot;  ///< columns of `series` that are plotted against time beside the grains
   std::filesystem::path series;   ///< empty: the run's series.csv
   /// Hears what is being done ("reading", "drawing"), how much of it is done and how much there is.

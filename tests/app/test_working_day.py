@@ -78,9 +78,11 @@ class WorkingDay(unittest.TestCase):
             self.assertEqual(file.read(5), b"%PDF-")
 
     def test_2_a_film_in_slow_motion(self):
-        self.good(2)
-        with open(self.path("out", "slow.gif"), "rb") as file:
-            self.assertEqual(file.read(4), b"GIF8")
+        done = self.good(2)
+        self.assertEqual(done.stderr.count("a second of the movie is 2 sqrt(d/g)\n"), 2)
+        for name in ("slow.gif", "closer.gif"):
+            with open(self.path("out", name), "rb") as file:
+                self.assertEqual(file.read(4), b"GIF8")
 
     def test_3_a_phase_diagram(self):
         done = self.good(3)
@@ -99,7 +101,19 @@ class WorkingDay(unittest.TestCase):
 
     def test_4_spheres_of_another_program(self):
         self.assertIn("3 points", self.good(4).stdout)
-        self.assertTrue(os.path.exists(self.path("out", "dump", "000000.png")))
+        # the network is in the picture
+        def drawn(*words):
+            done = subprocess.run([chute, "render", "dump.vtk", "--color", "type", "--size", "480x360", "-o", "other",
+                                   "--quiet", "--species", "sand,steel", *words],
+                                  cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(self.path("other", "000000.png"), "rb") as picture:
+                return picture.read()
+
+        with open(self.path("out", "dump", "000000.png"), "rb") as picture:
+            first = picture.read()
+        self.assertEqual(first, drawn("--contacts", "contacts.csv"))
+        self.assertNotEqual(first, drawn())
 
     def test_5_columns_are_told(self):
         said = self.good(5).stdout
