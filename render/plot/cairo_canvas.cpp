@@ -5,6 +5,7 @@
 #include FT_FREETYPE_H
 
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <string>
@@ -89,6 +90,30 @@ class Canvas {
       dots_as_picture(item);
     else
       dots(cairo_, item);
+  }
+
+  void draw(const PictureItem& item) {
+    const auto& from = item.picture;
+    cairo_surface_t* picture = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, from.width, from.height);
+    unsigned char* const data = cairo_image_surface_get_data(picture);
+    const int stride = cairo_image_surface_get_stride(picture);
+    for (int y = 0; y < from.height; ++y)
+      for (int x = 0; x < from.width; ++x) {
+        // Cairo's pixels are whole words with alpha multiplied in
+        const auto* p = from.pixel(x, y);
+        const std::uint32_t alpha = p[3];
+        std::uint32_t word = alpha << 24;
+        for (int c = 0; c < 3; ++c) word |= (p[c] * alpha + 127) / 255 << (16 - 8 * c);
+        std::memcpy(data + static_cast<std::ptrdiff_t>(y) * stride + 4 * x, &word, 4);
+      }
+    cairo_surface_mark_dirty(picture);
+    cairo_save(cairo_);
+    cairo_translate(cairo_, item.rect.left, item.rect.top);
+    cairo_scale(cairo_, item.rect.width() / from.width, item.rect.height() / from.height);
+    cairo_set_source_surface(cairo_, picture, 0, 0);
+    cairo_paint(cairo_);
+    cairo_restore(cairo_);
+    cairo_surface_destroy(picture);
   }
 
   void draw(const ClipBegin& clip) {

@@ -3,6 +3,7 @@
 #include <variant>
 #include <vector>
 
+#include "image/image.hpp"
 #include "plot/geometry.hpp"
 
 /// What a finished layout is: things to draw, in order, in points. Every back end draws this list and decides
@@ -70,13 +71,19 @@ struct DotsItem {
   Color color;
 };
 
+/// Pixels, such as a scene in space, stretched over `rect`. For files and Cairo's pixels; OSMesa does not draw it.
+struct PictureItem {
+  image::Image picture;
+  Rect rect;
+};
+
 /// Until the matching ClipEnd nothing outside is drawn. Not nested.
 struct ClipBegin {
   Rect rect;
 };
 struct ClipEnd {};
 
-using Item = std::variant<FillItem, StrokeItem, GlyphRun, DotsItem, ClipBegin, ClipEnd>;
+using Item = std::variant<FillItem, StrokeItem, GlyphRun, DotsItem, PictureItem, ClipBegin, ClipEnd>;
 
 /// What a stretch of items stands for, so that a reader of the list can tell data from furniture (referee.hpp).
 /// Back ends do not look at it.

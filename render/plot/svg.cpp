@@ -148,6 +148,11 @@ class Writer {
     ++shapes_;
   }
 
+  void add(const PictureItem& item) {
+    end_text();
+    put_picture(item.picture, item.rect);
+  }
+
   void add(const ClipBegin& clip) {
     end_text();
     clip_ = clip.rect;
@@ -203,11 +208,15 @@ class Writer {
     page.width = box.width(), page.height = box.height(), page.background.a = 0;
     auto& moved = std::get<DotsItem>(page.items.emplace_back(item));
     for (Point& p : moved.at) p = p - Point{box.left, box.top};
-    const auto png = image::encode_png(rasterise_by_cairo(page, dots_dpi));
+    put_picture(rasterise_by_cairo(page, dots_dpi), box);
+  }
+
+  void put_picture(const image::Image& picture, const Rect& box) {
     body += fmt::format(
         "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
         "xlink:href=\"data:image/png;base64,{}\"/>\n",
-        number(box.left), number(box.top), number(box.width()), number(box.height()), base64(png));
+        number(box.left), number(box.top), number(box.width()), number(box.height()),
+        base64(image::encode_png(picture)));
   }
 };
 

@@ -67,6 +67,18 @@ class FlatPainter : public Painter {
   }
 
   void paint(const FrameData& data, image::Image& into) override {
+    add_all(data);
+    scene_.draw(into);
+  }
+
+  plot::DisplayList page(const FrameData& data) override {
+    scene_.remember();
+    add_all(data);
+    return scene_.page();
+  }
+
+ private:
+  void add_all(const FrameData& data) {
     scene_.clear();
     const auto colors = studio_.colors(data.frame);
     for (const auto& wall : data.walls) add_wall(wall);
@@ -79,10 +91,8 @@ class FlatPainter : public Painter {
     if (studio_.style.impacts) add_impacts(data.impacts);
     if (studio_.style.chains) add_chains(data.links);
     if (studio_.style.arrows) add_arrows(data.frame);
-    scene_.draw(into);
   }
 
- private:
   Studio studio_;
   OffscreenContext context_;
   FlatScene scene_;

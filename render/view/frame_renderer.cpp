@@ -8,25 +8,10 @@
 #include "view/camera_path.hpp"
 #include "view/following.hpp"
 #include "view/furniture.hpp"
+#include "view/lay_over.hpp"
 #include "view/painter.hpp"
 
 namespace chute::view {
-namespace {
-
-/// Colours were multiplied by alpha while shapes were laid over each other; files and blending want them as
-/// they are.
-void divide_by_alpha(image::Image& picture) {
-  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-    const unsigned alpha = picture.rgba[i + 3];
-    if (alpha == 0 || alpha == 255) continue;
-    for (std::size_t c = 0; c < 3; ++c)
-      picture.rgba[i + c] =
-          static_cast<std::uint8_t>(std::min(255u, (picture.rgba[i + c] * 255u + alpha / 2) / alpha));
-  }
-}
-
-}  // namespace
-
 struct FrameRenderer::Inside {
   Survey survey;
   std::optional<Following> following;
@@ -75,6 +60,14 @@ const image::Image& FrameRenderer::draw(const FrameData& data) {
   if (in.studio.style.background == Background::transparent) divide_by_alpha(in.picture);
   in.furniture->put_on(in.picture, data.time);
   return in.picture;
+}
+
+plot::DisplayList FrameRenderer::page(const FrameData& data) {
+  auto& in = *inside_;
+  in.move_camera(data.time);
+  auto list = in.painter->page(in.following ? in.following->moved(data) : data);
+  in.furniture->add_to(list, data.time);
+  return list;
 }
 
 }  // namespace chute::view

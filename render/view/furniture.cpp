@@ -8,6 +8,7 @@
 
 #include "plot/draw.hpp"
 #include "plot/mathtext.hpp"
+#include "plot/placed.hpp"
 #include "plot/scale.hpp"
 #include "view/lay_over.hpp"
 
@@ -378,6 +379,7 @@ void Furniture::stand(const ScaleBar& scale, const Directions& directions, doubl
   if (places_.has_key) draw_key(list, arrow_pixels, chain_pixels);
   if (places_.has_gravity) draw_gravity(list, directions);
   standing_ = plot::rasterise_by_cairo(list, pixels);
+  standing_list_ = std::move(list);
   if (plot_) plot_->stand(standing_);
 }
 
@@ -393,6 +395,14 @@ void Furniture::put_on(image::Image& frame, double time) const {
   plot::draw_text(list, text, {places_.time.x() - whole.x(), above + places_.time.y() - whole.y()}, ink());
   lay_over(frame, plot::rasterise_by_cairo(list, pixels), static_cast<int>(whole.x()),
            static_cast<int>(whole.y() - above));
+}
+
+void Furniture::add_to(plot::DisplayList& page, double time) const {
+  if (!style_.furniture) return;
+  plot::place(page, standing_list_, 1, {0, 0});
+  if (plot_) plot_->add_to(page, time);
+  if (places_.has_time)
+    plot::draw_text(page, plot::set_text(time_text(style_, survey_, time), places_.em), places_.time, ink());
 }
 
 }  // namespace chute::view

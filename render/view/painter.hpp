@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "plot/display_list.hpp"
 #include "view/frame_data.hpp"
 #include "view/frame_style.hpp"
 #include "view/survey.hpp"
@@ -16,6 +17,8 @@ class Painter {
  public:
   virtual ~Painter() = default;
   virtual void paint(const FrameData& data, image::Image& into) = 0;
+  /// The same for a file: curves where there are some, else pixels. One unit is one pixel.
+  virtual plot::DisplayList page(const FrameData& data) = 0;
 };
 
 /// Forces beyond nearly the largest are drawn wider only up to this, so that a single one does not fill the picture.

@@ -13,6 +13,8 @@
 #include "common/fields.hpp"
 #include "common/hash.hpp"
 #include "image/png.hpp"
+#include "plot/draw.hpp"
+#include "plot/placed.hpp"
 #include "read/run_frames.hpp"
 #include "read/surroundings.hpp"
 #include "view/between.hpp"
@@ -128,6 +130,23 @@ int decimals_between(const Survey& survey, double step) {
   return std::max(survey.time_decimals, std::clamp(needed, 0, most));
 }
 
+fs::path picture_path(const RenderJob& job, std::size_t number) {
+  constexpr const char* extensions[] = {"png", "pdf", "svg"};
+  return job.output / fmt::format("{:06}.{}", number, extensions[static_cast<int>(job.format)]);
+}
+
+/// A page whose unit is a pixel as a file in which that is what `dpi` says.
+void write_page(const plot::DisplayList& page, const RenderJob& job, const fs::path& path,
+                const std::string& source) {
+  const double scale = 72 / (job.dpi > 0 ? job.dpi : usual_dpi);
+  plot::DisplayList list;
+  list.width = scale * page.width, list.height = scale * page.height, list.background = page.background;
+  plot::place(list, page, scale, {0, 0});
+  const plot::Metadata metadata{{"Title", job.style.title}, {"Creator", "chute"}, {"Subject", source}};
+  job.format == StillFormat::pdf ? plot::draw_pdf(list, path, metadata)
+                                 : plot::draw_svg(list, path, metadata);
+}
+
 /// Draws single frames of a run; one per process.
 class FrameDrawer {
  public:
@@ -161,11 +180,10 @@ class FrameDrawer {
     read::FileBytes network;
     if (has_network) network = read::network_bytes(file);
 
-    const fs::path picture =
-        job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
+    const fs::path picture = job_.output.empty() ? fs::path() : picture_path(job_, number);
     Hash hash;
     add_part(hash, common_);
-    add_part(hash, fmt::format("{}", survey_.times[number]));
+    add_part(hash, fmt::format("{} {}", survey_.times[number], job_.dpi));
     for (const auto& part : files) add_part(hash, part.bytes);
     add_part(hash, network.bytes);
     for (std::size_t i = oldest; i < number; ++i) add_part(hash, earlier_[i - first_earlier_].hash);
@@ -175,7 +193,8 @@ class FrameDrawer {
       add_part(hash,
                fmt::format("{}", fmt::join(survey_.path[number].begin(), survey_.path[number].end(), " ")));
     const auto drawn_hash = hash.hex();
-    if (!picture.empty() && is_drawn(picture, drawn_hash)) {
+    const bool is_page = job_.format != StillFormat::png;
+    if (!picture.empty() && !is_page && is_drawn(picture, drawn_hash)) {
       if (wanted) into = image::read_png(picture);
       return false;
     }
@@ -198,11 +217,15 @@ class FrameDrawer {
       data.focus = survey_.path[number];
       if (moment.part > 0) data.focus += moment.part * (survey_.path[number + 1] - survey_.path[number]);
     }
+    if (is_page) {
+      write_page(renderer_->page(data), job_, picture, file.path.filename().string());
+      return true;
+    }
     const auto& drawn = renderer_->draw(data);
     if (!picture.empty()) {
       const image::Text text{
           {"Software", "chute"}, {"Source", file.path.filename().string()}, {drawn_from, drawn_hash}};
-      write_atomically(picture, image::encode_png(drawn, text), Flush::later);
+      write_atomically(picture, image::encode_png(drawn, text, image::fast_level, job_.dpi), Flush::later);
     }
     if (wanted) into = drawn;
     return true;
@@ -321,6 +344,10 @@ RenderReport render_run(const RenderJob& job) {
     throw InputError("neither a folder for pictures nor a movie is asked for");
   if (!(job.frames_per_second > 0 && job.frames_per_second <= 1000))
     throw InputError(fmt::format("{} frames per second: must be in (0, 1000]", job.frames_per_second));
+  if (job.format != StillFormat::png && !job.movie.empty())
+    throw InputError("pictures that are kept beside a movie are its frames, as PNG");
+  if (job.dpi != 0 && !(job.dpi >= 10 && job.dpi <= 10000))
+    throw InputError(fmt::format("{} dpi: must be in [10, 10000]", job.dpi));
   if (job.speed != 0 && !(job.speed > 0 && std::isfinite(job.speed)))
     throw InputError(fmt::format("speed {}: must be > 0", job.speed));
   if (job.speed != 0 && (job.movie.empty() || !job.output.empty()))
@@ -370,7 +397,7 @@ RenderReport render_run(const RenderJob& job) {
   // Pictures are flushed to the disk at the end, all at once: one that a power cut spoilt would be drawn again.
   const auto flush = [&] {
     if (job.output.empty()) return;
-    for (const auto number : numbers) flush_file(job.output / fmt::format("{:06}.png", number));
+    for (const auto number : numbers) flush_file(picture_path(job, number));
     flush_folder(job.output);
   };
 

@@ -5,6 +5,7 @@
 
 #include "common/fields.hpp"
 #include "view/furniture.hpp"
+#include "view/lay_over.hpp"
 #include "view/painter.hpp"
 #include "view/solid_scene.hpp"
 
@@ -77,6 +78,18 @@ class SolidPainter : public Painter {
     scene_.draw(content_, into);
     if (studio_.is_glassy()) show_behind(into);
     if (overflows() && studio_.style.furniture) keep_inside(into);
+  }
+
+  plot::DisplayList page(const FrameData& data) override {
+    plot::PictureItem item;
+    paint(data, item.picture);
+    divide_by_alpha(item.picture);
+    item.rect = {0, 0, static_cast<double>(item.picture.width), static_cast<double>(item.picture.height)};
+    plot::DisplayList list;
+    list.width = item.rect.right, list.height = item.rect.bottom;
+    list.background.a = 0;  // the pixels have the ground
+    list.items.emplace_back(std::move(item));
+    return list;
   }
 
  private:

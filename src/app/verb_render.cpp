@@ -27,7 +27,8 @@ namespace {
 struct RenderArguments {
   std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series, up;
   std::string title, time;
-  double time_scale = 1, font_size = 0, opacity = 1, copy_reach = 0.16;
+  double time_scale = 1, font_size = 0, opacity = 1, copy_reach = 0.16, dpi = 0;
+  std::string format = "png";
   std::vector<std::string> camera_at;
   std::string radius, diameter, velocity, spin, orientation, type, id;
   std::string contacts;
@@ -160,11 +161,18 @@ view::Background read_background(const std::string& word) {
                                hint.empty() ? "" : fmt::format(", did you mean {}?", hint)));
 }
 
+view::StillFormat read_format(const std::string& word) {
+  const std::vector<std::string> words{"png", "pdf", "svg"};
+  const auto found = std::find(words.begin(), words.end(), word);
+  require(found != words.end(), "--format", word, "png, pdf or svg");
+  return static_cast<view::StillFormat>(found - words.begin());
+}
+
 view::RenderJob job_of(const RenderArguments& a) {
   view::RenderJob job;
   job.source = a.run;
   auto& style = job.style;
-  if (!a.size.empty()) std::tie(style.width, style.height) = read_size(a.size);
+  if (!a.size.empty()) std::tie(style.width, style.height) = read_size(a.size, a.dpi);
   style.color = a.color, style.map = a.map;
   if (!a.range.empty()) {
     const auto values = numbers("--range", a.range, ':', "LOW:HIGH");
@@ -184,6 +192,7 @@ view::RenderJob job_of(const RenderArguments& a) {
   for (const auto& cut : a.cuts) style.cuts.push_back(read_cut(cut));
   style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
   job.movie = a.movie, job.output = a.output;
+  job.format = read_format(a.format), job.dpi = a.dpi;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
   auto& meanings = job.meanings;
   read_size_of_grains("--radius", a.radius, 1, meanings, meanings.radius_array);
@@ -304,7 +313,14 @@ void add_render(CLI::App& app) {
                    "chains: forces, which chains tell; default the speed, else the species");
   verb->add_option("--range", a->range, "colour range LOW:HIGH; default from the whole run");
   verb->add_option("--colormap", a->map, "viridis, batlow, cividis, rdbu, or one of them with _r, reversed");
-  verb->add_option("--size", a->size, "pixels, WIDTHxHEIGHT; default 1920x1080");
+  verb->add_option("--size", a->size,
+                   "pixels, WIDTHxHEIGHT, or with --dpi WIDTHxHEIGHTmm; default 1920x1080");
+  verb->add_option("--format", a->format,
+                   "of pictures: png; pdf or svg, in which texts are texts, and grains in the plane curves")
+      ->capture_default_str();
+  verb->add_option(
+      "--dpi", a->dpi,
+      "pixels of an inch in print, which files then say: sizes may be in mm; pages default to 96");
   verb->add_option("--frames", a->frames, "one frame, or FIRST:END:STEP with END not included");
   verb->add_option(
       "--camera", a->camera,

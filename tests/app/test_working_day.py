@@ -80,6 +80,8 @@ class WorkingDay(unittest.TestCase):
     def test_2_a_film_in_slow_motion(self):
         done = self.good(2)
         self.assertEqual(done.stderr.count("a second of the movie is 2 sqrt(d/g)\n"), 2)
+        with open(self.path("out", "stills", "000020.pdf"), "rb") as file:
+            self.assertIn(b"/MediaBox [ 0 0 243.8", file.read())  # 86 mm
         for name in ("slow.gif", "closer.gif"):
             with open(self.path("out", name), "rb") as file:
                 self.assertEqual(file.read(4), b"GIF8")
