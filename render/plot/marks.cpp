@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "common/error.hpp"
+#include "plot/cells.hpp"
 #include "plot/map.hpp"
 #include "plot/polyline.hpp"
 #include "plot/shading.hpp"
@@ -70,7 +71,7 @@ class SeriesPainter {
   SeriesPainter(Painter& painter, const Frame& frame, const Series& series, const SeriesLook& ink)
       : look_(std::make_shared<const Look>(ink.of(painter.look))),
         p_{painter.list, *look_, painter.occupied, painter.panel, painter.over_map},
-        frame_(frame),
+        frame_(frame.of(series)),
         s_(series),
         ink_(ink) {}
 
@@ -128,7 +129,8 @@ class SeriesPainter {
   }
 
   void error_bars() {
-    if (s_.kind == Kind::line || s_.kind == Kind::dots || s_.kind == Kind::band) return;
+    if (s_.kind == Kind::line || s_.kind == Kind::dots || s_.kind == Kind::band || s_.kind == Kind::cells)
+      return;
     Path path;
     for (std::size_t i = 0; i < s_.x.size(); ++i) {
       if (!is_inside(i)) continue;
@@ -153,7 +155,7 @@ class SeriesPainter {
 
   /// No point is lost: what lies outside the frame is an arrow at it, pointing there.
   void arrows() {
-    if (s_.kind == Kind::line || s_.kind == Kind::band) return;
+    if (s_.kind == Kind::line || s_.kind == Kind::band || s_.kind == Kind::cells) return;
     struct Beyond {
       Point at, along;
       std::size_t points = 0;
@@ -203,23 +205,6 @@ class SeriesPainter {
     }
   }
 
-  static void draw_marker(DisplayList& list, const Look& look, const MarkerShape& shape, Color color,
-                          const Point& at) {
-    Path path;
-    path.append(shape.path, at);
-    const Stroke pen{0.85 * look.line_width, {}, Cap::butt, Join::miter};
-    if (shape.paint == MarkerShape::Paint::hollow) list.fill(path, look.paper);
-    if (!shape.inside.empty()) {
-      Path inside;
-      inside.append(shape.inside, at);
-      list.fill(inside, color);
-    }
-    if (shape.paint == MarkerShape::Paint::filled)
-      list.fill(path, color);
-    else
-      list.stroke(path, pen, color);
-  }
-
   /// Scatter dots differ in shape too, as far as their size lets one see it.
   static Path dot_shape(double radius, int marker) {
     switch (marker % 3) {
@@ -235,7 +220,7 @@ class SeriesPainter {
  private:
   std::shared_ptr<const Look> look_;  // shared: painters are moved, and p_ refers to it
   Painter p_;
-  const Frame& frame_;
+  Frame frame_;
   const Series& s_;
   const SeriesLook& ink_;
 
@@ -321,6 +306,8 @@ namespace {
 /// What the series asks of the axes; what a given range of either axis hides asks for nothing.
 void include_series(Extents& e, const Plot& plot, const Series& s) {
   const bool bins = has_bins(s.kind);
+  const Axis& along_y = s.right && plot.right ? *plot.right : plot.y;
+  Extent& ey = s.right && plot.right ? e.right : e.y;
   const auto mark = has_markers(s.kind)    ? Extent::Mark::marker
                     : s.kind == Kind::dots ? Extent::Mark::dot
                                            : Extent::Mark::none;
@@ -334,15 +321,15 @@ void include_series(Extents& e, const Plot& plot, const Series& s) {
     extent.include(v + error, axis.scale);
   };
   for (std::size_t i = 0; i < s.x.size(); ++i) {
-    if (!shown(plot.x, s.x[i]) || !shown(plot.y, s.y[i])) continue;
+    if (!shown(plot.x, s.x[i]) || !shown(along_y, s.y[i])) continue;
     e.x.include(s.x[i], plot.x.scale, mark);
-    e.y.include(s.y[i], plot.y.scale, mark);
-    if (s.kind == Kind::line || s.kind == Kind::dots) continue;
-    include_error(e.y, plot.y, s.y[i], error_at(s.y_err, i));
+    ey.include(s.y[i], along_y.scale, mark);
+    if (s.kind == Kind::line || s.kind == Kind::dots || s.kind == Kind::cells) continue;
+    include_error(ey, along_y, s.y[i], error_at(s.y_err, i));
     if (!bins) include_error(e.x, plot.x, s.x[i], error_at(s.x_err, i));
   }
   if (bins) {
-    e.y.from_zero = plot.y.scale == Scale::linear;
+    ey.from_zero = along_y.scale == Scale::linear;
     for (double edge : bin_edges(s.x)) e.x.include(edge, plot.x.scale);
   }
 }
@@ -364,7 +351,7 @@ static bool is_near(const Extent& extent, const Axis& axis, double value) {
 
 Extents extents_of(const Plot& plot) {
   Extents e;
-  e.y.keep_off = true;
+  e.y.keep_off = e.right.keep_off = true;
   const bool all_doubtful = std::all_of(plot.series.begin(), plot.series.end(),
                                         [](const Series& s) { return is_doubtful(s.name) || s.x.empty(); });
   for (const auto& s : plot.series) {
@@ -378,7 +365,8 @@ Extents extents_of(const Plot& plot) {
       Series near = s;  // its points alone: errors of what is in doubt stretch nothing
       near.x.clear(), near.y.clear(), near.x_err.clear(), near.y_err.clear();
       for (std::size_t i = 0; i < s.x.size(); ++i)
-        if (is_near(sure.x, plot.x, s.x[i]) && is_near(sure.y, plot.y, s.y[i]))
+        if (is_near(sure.x, plot.x, s.x[i]) &&
+            (s.right && plot.right ? is_near(sure.right, *plot.right, s.y[i]) : is_near(sure.y, plot.y, s.y[i])))
           near.x.push_back(s.x[i]), near.y.push_back(s.y[i]);
       include_series(e, plot, near);
     }
@@ -386,14 +374,19 @@ Extents extents_of(const Plot& plot) {
   // a line that runs along the lower edge for long would not be seen there: it asks for room as markers do
   for (const auto& s : plot.series) {
     if (s.kind != Kind::line) continue;
-    const double edge = e.y.low + 0.01 * (e.y.high - e.y.low);
+    Extent& ey = s.right && plot.right ? e.right : e.y;
+    const double edge = ey.low + 0.01 * (ey.high - ey.low);
     const auto there = std::count_if(s.y.begin(), s.y.end(), [&](double y) { return y < edge; });
     if (there > 2 && 5 * static_cast<std::size_t>(there) > s.y.size())
-      e.y.dot_low = std::min(e.y.dot_low, e.y.low);
+      ey.dot_low = std::min(ey.dot_low, ey.low);
   }
   if (plot.map) {
-    for (const double x : cell_edges(plot.map->x)) e.x.include(x, plot.x.scale);
-    for (const double y : cell_edges(plot.map->y)) e.y.include(y, plot.y.scale);
+    for (const double x : cell_edges(plot.map->x, plot.x.scale)) e.x.include(x, plot.x.scale);
+    for (const double y : cell_edges(plot.map->y, plot.y.scale)) e.y.include(y, plot.y.scale);
+  }
+  if (const auto grid = cell_grid(plot); !grid.empty()) {
+    for (const double x : cell_edges(grid.x, plot.x.scale)) e.x.include(x, plot.x.scale);
+    for (const double y : cell_edges(grid.y, plot.y.scale)) e.y.include(y, plot.y.scale);
   }
   if (plot.chains) {
     for (const double x : plot.chains->x) e.x.include(x, plot.x.scale);
@@ -445,6 +438,7 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks) {
   painter.list.items.emplace_back(ClipBegin{frame.rect});
   if (plot.map) draw_map(painter.list, painter.look, frame, *plot.map);
+  draw_cells(painter, frame, plot, cell_grid(plot), looks);
   if (plot.map && plot.map->log) mark_crowd(painter.occupied, frame, *plot.map);
   for (const auto& region : plot.regions) draw_region(painter, frame, plot, region);
   for (const auto& reference : plot.references) draw_reference(painter, frame, reference);
@@ -463,10 +457,34 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   for (const auto& reference : plot.references) draw_reference_label(painter, frame, reference);
 }
 
+void draw_marker(DisplayList& list, const Look& look, const MarkerShape& shape, Color color,
+                 const Point& at) {
+  Path path;
+  path.append(shape.path, at);
+  const Stroke pen{0.85 * look.line_width, {}, Cap::butt, Join::miter};
+  if (shape.paint == MarkerShape::Paint::hollow) list.fill(path, look.paper);
+  if (!shape.inside.empty()) {
+    Path inside;
+    inside.append(shape.inside, at);
+    list.fill(inside, color);
+  }
+  if (shape.paint == MarkerShape::Paint::filled)
+    list.fill(path, color);
+  else
+    list.stroke(path, pen, color);
+}
+
 void draw_sample(DisplayList& list, const Look& style, Kind kind, const SeriesLook& ink, Point at,
                  double width) {
   const Look look = ink.of(style);
   const double middle = at.x() + width / 2, half = 0.32 * look.legend_size;
+  if (kind == Kind::cells) {
+    Path box;
+    box.rectangle({at.x(), at.y() - half, at.x() + width, at.y() + half});
+    list.fill(box, cell_tint(ink.color, look.paper));
+    list.stroke(box, {look.hairline, {}, Cap::butt, Join::miter}, look.ink);
+    draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
+  }
   if (kind == Kind::bars || kind == Kind::band) {
     Path box;
     box.rectangle({at.x() + (kind == Kind::bars ? 4 : 0), at.y() - half,
@@ -486,8 +504,7 @@ void draw_sample(DisplayList& list, const Look& style, Kind kind, const SeriesLo
     const auto shape = SeriesPainter::dot_shape(2.2 * look.dot_radius, ink.marker);
     list.items.emplace_back(DotsItem{shape, {{middle, at.y()}}, ink.color});
   }
-  if (has_markers(kind))
-    SeriesPainter::draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
+  if (has_markers(kind)) draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
 }
 
 }  // namespace chute::plot
