@@ -73,6 +73,8 @@ int main(int argc, char** argv) {
   app::add_report(app);
   app::add_convert(app);
   app::add_measure(app);
+  app::add_export(app);
+  app::add_import(app);
   app::add_theory(app);
   app::add_manual(app);
 
