@@ -25,10 +25,15 @@ struct ExportArguments {
   bool quiet = false;
 };
 
-/// What LAMMPS does is what the soft engine does with verlet; other methods are other physics.
-void refuse_other_methods(const Input& input, const std::vector<std::string>& settings) {
+toml::table table_of(const Input& input, const std::vector<std::string>& settings) {
   auto table = parse_toml(input.text, input.name);
   for (const auto& setting : settings) set_by_path(table, setting);
+  return table;
+}
+
+/// What LAMMPS does is what the soft engine does with verlet; other methods are other physics.
+void refuse_other_methods(const Input& input, const std::vector<std::string>& settings) {
+  const auto table = table_of(input, settings);
   const TomlReader reader(table, input.name);
   const auto method = table["engine"]["method"].value_or(std::string("soft"));
   if (method != "soft" && method != "lammps")
@@ -44,9 +49,9 @@ void refuse_other_methods(const Input& input, const std::vector<std::string>& se
 }
 
 template <int D>
-lammps::Deck deck_of(const scene::Scene& scene, double dt, const std::string& name) {
+lammps::Deck deck_of(const scene::Scene& scene, double dt, const TomlReader& reader) {
   const auto made = lammps::make_deck<D>(scene::make_world<D>(scene), scene::setting_of(scene), dt);
-  if (made.wrong) throw InputError(fmt::format("{}: {}: {}", name, made.wrong->key, made.wrong->message));
+  if (made.wrong) reader.fail(made.wrong->key, made.wrong->message);
   return made.deck;
 }
 
@@ -64,8 +69,9 @@ void export_scene(const ExportArguments& a) {
   const double dt = scene.engine->step(scene::setting_of(scene));
   settings.push_back(fmt::format("engine.time_step={}", dt));
   scene = scene::parse_scene(input.text, input.name, settings);
-  const auto deck =
-      scene.dimensions == 2 ? deck_of<2>(scene, dt, input.name) : deck_of<3>(scene, dt, input.name);
+  const auto table = table_of(input, settings);
+  const TomlReader reader(table, input.name);
+  const auto deck = scene.dimensions == 2 ? deck_of<2>(scene, dt, reader) : deck_of<3>(scene, dt, reader);
   const auto* frames = scene.wants<measure::FramesOutput>();
   const double every =
       frames && frames->frames ? frames->frames->every : scene.wants<measure::SeriesOutput>()->series.every;

@@ -188,7 +188,8 @@ ContactModel model_of_all(const laws::ContactLaws& laws) {
     normal = fmt::format("{} {} {} damping mass_velocity", hertz ? "hertz" : "hooke", infinite, per_mass);
   } else {
     const double ratio = damping(one) / std::sqrt(infinite);
-    if (hertz || !(ratio < 1.2728))
+    constexpr double least = 1e-3, most = 1.27;  // of what `damping tsuji` can have
+    if (hertz || !(ratio > least && ratio < most))
       return refused("contact.normal.restitution", fmt::format("{}give equal grains", many_sizes));
     normal = fmt::format("hooke {} {} damping tsuji", infinite, tsuji_restitution(ratio));
   }
