@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "common/atomic_file.hpp"
@@ -42,6 +43,9 @@ class Conversion {
     std::vector<read::FrameFile> frames;
     for (const auto& source : job_.sources)
       for (auto& frame : read::find_frames(source)) frames.push_back(std::move(frame));
+    // A shell gives dump.10 before dump.2.
+    if (std::ranges::all_of(frames, [](const auto& frame) { return frame.time.has_value(); }))
+      std::ranges::stable_sort(frames, {}, [](const auto& frame) { return *frame.time; });
     for (const auto& frame : frames) {
       add(frame);
       if (job_.progress && !job_.progress(report_.frames, frames.size()))

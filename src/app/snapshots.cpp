@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
@@ -75,32 +75,35 @@ std::vector<Contact> contacts_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<read::FrameFile> frames_of_all(const std::vector<std::string>& sources) {
-  std::vector<read::FrameFile> frames;
+TimedFrames timed_frames(const std::vector<std::string>& sources, const read::Meanings& meanings) {
+  struct Timed {
+    read::FrameFile frame;
+    std::optional<double> time;
+  };
+  std::vector<Timed> all;
   for (const auto& source : sources)
-    for (auto& frame : read::find_frames(source)) frames.push_back(std::move(frame));
-  return frames;
-}
-
-std::vector<double> times_of(const std::vector<read::FrameFile>& frames, const read::Meanings& meanings) {
-  std::vector<double> times;
-  const read::FrameFile* without = nullptr;
-  for (const auto& frame : frames) {
-    auto time = frame.time;
-    if (!time)
-      time = read::parse_frame(read::read_files(frame), meanings, {std::string(fields::id.name)}).time;
-    if (time)
-      times.push_back(*time);
-    else
-      without = &frame;
+    for (auto& frame : read::find_frames(source)) {
+      auto time = frame.time;
+      if (!time)
+        time = read::parse_frame(read::read_files(frame), meanings, {std::string(fields::id.name)}).time;
+      all.push_back({std::move(frame), time});
+    }
+  const auto told = std::ranges::count_if(all, [](const Timed& t) { return t.time.has_value(); });
+  if (told == 0) {
+    for (std::size_t k = 0; k < all.size(); ++k) all[k].time = static_cast<double>(k);
+  } else if (told < std::ssize(all)) {
+    const auto without = std::ranges::find_if(all, [](const Timed& t) { return !t.time; });
+    throw InputError(
+        fmt::format("{}: tells no time, but others of these frames do", without->frame.path.string()));
   }
-  if (times.empty()) {
-    times.resize(frames.size());
-    std::iota(times.begin(), times.end(), 0.0);
-  } else if (without) {
-    throw InputError(fmt::format("{}: tells no time, but others of these frames do", without->path.string()));
+  // A shell gives dump.10 before dump.2.
+  std::ranges::stable_sort(all, {}, [](const Timed& t) { return *t.time; });
+  TimedFrames sorted;
+  for (auto& [frame, time] : all) {
+    sorted.frames.push_back(std::move(frame));
+    sorted.times.push_back(*time);
   }
-  return times;
+  return sorted;
 }
 
 replay::Snapshot snapshot_of(const read::FrameFile& file, const FileSays& says) {

@@ -8,12 +8,15 @@
 
 namespace chute::app {
 
-/// The frames of all sources (read::find_frames), one after the other.
-std::vector<read::FrameFile> frames_of_all(const std::vector<std::string>& sources);
+/// Frames in the order of their times.
+struct TimedFrames {
+  std::vector<read::FrameFile> frames;
+  std::vector<double> times;
+};
 
-/// Their times: as an index or a text says, else as the file itself does; the frames' numbers where none says. InputError if
-/// only some do.
-std::vector<double> times_of(const std::vector<read::FrameFile>& frames, const read::Meanings& meanings);
+/// The frames of all sources (read::find_frames) with their times: as an index or a text says, else as the file itself does;
+/// the frames' numbers where none says. InputError if only some do.
+TimedFrames timed_frames(const std::vector<std::string>& sources, const read::Meanings& meanings);
 
 /// What the user says of a file besides the names of its arrays.
 struct FileSays {

@@ -31,12 +31,12 @@ void measure(const MeasureArguments& a) {
   if (std::filesystem::exists(a.folder, error) && !std::filesystem::is_empty(a.folder, error))
     throw InputError(a.folder + ": is not empty; name a new folder");
   const FileSays says{a.meanings.read(), a.bed};
-  const auto frames = frames_of_all(a.sources);
+  const auto [frames, times] = timed_frames(a.sources, says.meanings);
   watch_for_interrupt();
   Progress progress("measure", a.quiet);
   replay::MeasureJob job;
-  job.times = times_of(frames, says.meanings);
-  job.read = [&](std::size_t k) { return snapshot_of(frames[k], says); };
+  job.times = times;
+  job.read = [&says, &all = frames](std::size_t k) { return snapshot_of(all[k], says); };
   job.folder = a.folder;
   job.from = a.from, job.until = a.until, job.gap = a.gap;
   job.only = a.only, job.settings = a.settings;

@@ -115,6 +115,21 @@ class Frames(unittest.TestCase):
                     there = self.call("info", os.path.join(run, name % k)).stdout.splitlines()
                     self.assertEqual([line for line in found if "cells" in line], [line for line in there if "cells" in line])
 
+    def test_files_are_taken_in_the_order_of_their_times(self):
+        dumps, out, back = self.new(), None, None
+        self.call("convert", "flat", "--to", "lammps-dump", "-o", dumps)
+        files = sorted(os.listdir(self.path(dumps)), reverse=True)
+        out = self.new()
+        self.call("measure", *[os.path.join(dumps, name) for name in files], "-o", out, "--only", "moments", "--bed", 0)
+        whole = table(self.path("flat", "moments.csv"))
+        times = table(self.path(out, "moments.csv"))
+        self.assertEqual(whole["temperature"], times["temperature"][2:])
+        back = self.new()
+        self.call("convert", *[os.path.join(dumps, name) for name in files], "--to", "vtp", "-o", back)
+        with open(self.path(back, "frames.pvd"), encoding="utf-8") as file:
+            told = [line.split('"')[1] for line in file if "timestep" in line]
+        self.assertEqual(told, sorted(told, key=float))
+
     def test_there_and_back(self):
         """chute -> dump -> chute: profiles of what came back are those of the run."""
         dumps, back, out = self.new(), None, None

@@ -239,7 +239,7 @@ class Lammps(unittest.TestCase):
         self.assertIn('"gear5", the default,', line("export", "gear.toml", *out))
         self.write("law.toml", FLOW.replace('law = "coulomb-viscous"\nviscosity = 50', 'law = "coulomb"')
                    .replace('friction = 0.5\nmass_scaling = "damping"', "friction = 0.5"))
-        self.assertIn('law.toml:16: contact.tangential.law: "coulomb": LAMMPS has no such law', line("export", "law.toml", *out))
+        self.assertIn('law.toml:17: contact.tangential.law: "coulomb": LAMMPS has no such law', line("export", "law.toml", *out))
         self.assertIn("LAMMPS moves soft grains", line("export", "flow.toml", "--set", "engine.method=event", *out))
         self.assertIn("knows only planes", line("export", "flow.toml", "--set", "wall=[{from=[0,9],to=[5,9]}]", *out))
         self.assertIn("--ranks", line("run", "flow.toml", "--ranks", 2))
