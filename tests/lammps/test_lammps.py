@@ -108,6 +108,7 @@ class Lammps(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.folder)
+        os.mkdir(self.path("tmp"))  # where LAMMPS works
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -117,7 +118,7 @@ class Lammps(unittest.TestCase):
             file.write(text)
 
     def call(self, *words, status=0, path=None):
-        around = dict(os.environ, **({"PATH": path} if path else {}))
+        around = dict(os.environ, TMPDIR=self.path("tmp"), **({"PATH": path} if path else {}))
         done = subprocess.run([chute, *map(str, words)], capture_output=True, text=True, cwd=self.folder, env=around)
         self.assertEqual(done.returncode, status, (words, done.stdout, done.stderr))
         return done
@@ -223,7 +224,7 @@ class Lammps(unittest.TestCase):
         series, whole = table(self.path("run", "series.csv")), table(self.path("soft", "series.csv"))
         self.assertEqual(len(series["x"]), len(whole["x"]))
         self.assertAlmostEqual(float(series["x"][-1]), float(whole["x"][-1]), delta=1e-3)
-        self.assertEqual([name for name in os.listdir(tempfile.gettempdir()) if name.startswith("chute-lammps-")], [])
+        self.assertEqual([name for name in os.listdir(self.path("tmp")) if name.startswith("chute-")], [])
 
     def test_what_it_has_not_is_refused_in_a_line(self):
         self.write("flow.toml", FLOW)

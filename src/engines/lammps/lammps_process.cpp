@@ -23,12 +23,14 @@ namespace {
 
 constexpr const char* said = "said";  // what LAMMPS and mpirun write, in its folder
 
-/// The environment, with one thread a process: ranks share the cores among them.
-std::vector<std::string> environment() {
+/// The environment, with one thread a process: ranks share the cores among them. A process alone needs no daemon of Open
+/// MPI's, which takes as long to start as LAMMPS itself.
+std::vector<std::string> environment(bool alone) {
   std::vector<std::string> all;
   for (char** entry = environ; *entry; ++entry)
     if (std::strncmp(*entry, "OMP_NUM_THREADS=", 16) != 0) all.emplace_back(*entry);
   all.emplace_back("OMP_NUM_THREADS=1");
+  if (alone) all.emplace_back("OMPI_MCA_ess_singleton_isolated=1");
   return all;
 }
 
@@ -87,7 +89,7 @@ void LammpsProcess::start(int ranks) {
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   ::posix_spawnattr_setpgroup(&attributes, 0);
-  auto texts = environment();
+  auto texts = environment(ranks == 1);
   auto given = pointers(words), around = pointers(texts);
   const int error = ::posix_spawnp(&process_, given[0], &actions, &attributes, given.data(), around.data());
   ::posix_spawn_file_actions_destroy(&actions);
