@@ -11,6 +11,7 @@
 #include <thread>
 #include <tuple>
 
+#include "app/file_meanings.hpp"
 #include "app/interrupt.hpp"
 #include "app/numbers.hpp"
 #include "app/progress.hpp"
@@ -31,7 +32,7 @@ struct RenderArguments {
   double time_scale = 1, font_size = 0, opacity = 1, copy_reach = 0.16, dpi = 0;
   std::string format = "png";
   std::vector<std::string> camera_at;
-  std::string radius, diameter, velocity, spin, orientation, type, id;
+  FileMeanings meanings;
   std::string contacts;
   std::vector<std::string> species, force, ends;
   std::vector<std::string> plot;
@@ -110,23 +111,6 @@ Eigen::Vector3d read_up(const std::string& text) {
   return {values[0], values[1], values[2]};
 }
 
-/// A number is the same for all grains, anything else the name of an array.
-void read_size_of_grains(const std::string& option, const std::string& text, double per_radius,
-                         read::Meanings& meanings, std::string& array) {
-  if (text.empty()) return;
-  if (meanings.radius || !meanings.radius_array.empty() || !meanings.diameter_array.empty())
-    throw InputError("--radius and --diameter: one of them says how large grains are");
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) {
-    array = text;
-    return;
-  }
-  require(value > 0 && std::isfinite(value), option, text, "a number > 0, or the name of an array");
-  meanings.radius = value / per_radius;
-}
-
 /// `x>3`, `z<0.5`: what lies there is cut away.
 view::Cut read_cut(const std::string& text) {
   constexpr const char* expected = "x, y or z, then > or <, then a number, such as x>3";
@@ -195,11 +179,8 @@ view::RenderJob job_of(const RenderArguments& a) {
   job.movie = a.movie, job.output = a.output;
   job.format = read_format(a.format), job.dpi = a.dpi;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
+  job.meanings = a.meanings.read();
   auto& meanings = job.meanings;
-  read_size_of_grains("--radius", a.radius, 1, meanings, meanings.radius_array);
-  read_size_of_grains("--diameter", a.diameter, 2, meanings, meanings.diameter_array);
-  meanings.velocity = a.velocity, meanings.spin = a.spin, meanings.orientation = a.orientation;
-  meanings.type = a.type, meanings.id = a.id;
   meanings.force = a.force, meanings.ends = a.ends;
   require(a.ends.empty() || a.ends.size() == 2 || a.ends.size() == 4 || a.ends.size() == 6, "--ends",
           fmt::format("{}", fmt::join(a.ends, ",")),
@@ -381,14 +362,7 @@ void add_render(CLI::App& app) {
   verb->add_option("--series", a->series, "another table for --plot, with a column time");
   verb->add_flag("--no-spin", a->no_spin, "no marks that turn with the grains");
   verb->add_flag("--bare", a->bare, "the grains alone: no colour bar, time, scale and gravity");
-  verb->add_option("--radius", a->radius, "array of the radii, or one number for all grains");
-  verb->add_option("--diameter", a->diameter, "array of the diameters, or one number for all grains");
-  verb->add_option("--velocity", a->velocity, "array of the velocities, or its components U,V[,W]");
-  verb->add_option("--spin", a->spin, "array of the angular velocities");
-  verb->add_option("--orientation", a->orientation,
-                   "array of angles (plane) or quaternions w x y z (space), which the marks show");
-  verb->add_option("--type", a->type, "array of the species");
-  verb->add_option("--id", a->id, "array of the grains' numbers, for trails and --camera follow");
+  a->meanings.add_options(*verb);
   verb->add_option(
       "--contacts", a->contacts,
       "files of contacts of another program, whose forces are drawn as chains: VTK, CSV, or a dump "
