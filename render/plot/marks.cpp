@@ -366,7 +366,8 @@ Extents extents_of(const Plot& plot) {
       near.x.clear(), near.y.clear(), near.x_err.clear(), near.y_err.clear();
       for (std::size_t i = 0; i < s.x.size(); ++i)
         if (is_near(sure.x, plot.x, s.x[i]) &&
-            (s.right && plot.right ? is_near(sure.right, *plot.right, s.y[i]) : is_near(sure.y, plot.y, s.y[i])))
+            (s.right && plot.right ? is_near(sure.right, *plot.right, s.y[i])
+                                   : is_near(sure.y, plot.y, s.y[i])))
           near.x.push_back(s.x[i]), near.y.push_back(s.y[i]);
       include_series(e, plot, near);
     }

@@ -319,8 +319,8 @@ Furniture::Key Furniture::force_key(double chain_pixels) const {
   const auto unit = survey_.units == "reduced" ? fmt::format("$F_n = {:g}\\,m\\,g$", force)
                     : survey_.units == "SI"    ? fmt::format("$F_n = {:g}\\,\\mathrm{{N}}$", force)
                                                : fmt::format("$F_n = {:g}$", force);
-  return {2 * em, std::max(0.5, chain_pixels * force / survey_.force), false, plot::set_text(unit, small * em),
-          studio_.chain_color(force)};
+  return {2 * em, std::max(0.5, chain_pixels * force / survey_.force), false,
+          plot::set_text(unit, small * em), studio_.chain_color(force)};
 }
 
 Furniture::Key Furniture::speed_key(double arrow_pixels) const {

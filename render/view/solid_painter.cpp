@@ -192,7 +192,8 @@ class SolidPainter : public Painter {
   /// Chains run inside the grains: those shrink so that they show.
   double seen_radius(const read::GrainFrame& frame, std::size_t i) const {
     constexpr double shrunk = 0.4;
-    return frame.radius[i] * (studio_.style.chains && !studio_.is_glassy() && !studio_.is_bed(frame, i) ? shrunk : 1);
+    return frame.radius[i] *
+           (studio_.style.chains && !studio_.is_glassy() && !studio_.is_bed(frame, i) ? shrunk : 1);
   }
 
   void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
