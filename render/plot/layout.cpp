@@ -11,7 +11,9 @@
 #include "common/error.hpp"
 #include "plot/axes.hpp"
 #include "plot/cells.hpp"
+#include "plot/extents.hpp"
 #include "plot/fonts.hpp"
+#include "plot/headings.hpp"
 #include "plot/inset.hpp"
 #include "plot/legend.hpp"
 #include "plot/map.hpp"
@@ -222,38 +224,10 @@ class Layouter {
     return names;
   }
 
-  /// What stands above a panel: its letter, what it shows and what was held fixed, in as many lines as it takes.
-  static std::string heading(const Panel& p) {
-    std::string text = p.label.empty() ? "" : "(" + p.label + ")";
-    for (const auto* part : {&p.title, &p.parameters})
-      if (!part->empty())
-        text += (text.empty() ? "" : part == &p.title || p.title.empty() ? " " : ", ") + *part;
-    return text;
-  }
-  std::vector<TextBox> heading_lines(const Panel& p, double width) const {
-    const auto text = heading(p);
-    std::vector<TextBox> lines;
-    if (text.empty()) return lines;
-    std::string line;
-    for (std::size_t at = 0; at < text.size();) {
-      const auto comma = text.find(", ", at);
-      const auto end = comma == std::string::npos ? text.size() : comma + 1;
-      const auto part = text.substr(at, end - at);
-      const auto longer = line.empty() ? part : line + " " + part;
-      if (!line.empty() && set_text(longer, look_.legend_size).width > width) {
-        lines.push_back(set_to_fit(line, look_.legend_size, width));
-        line = part;
-      } else {
-        line = longer;
-      }
-      at = comma == std::string::npos ? text.size() : comma + 2;
-    }
-    lines.push_back(set_to_fit(line, look_.legend_size, width));
-    return lines;
-  }
   double heading_height(const Panel& p, double width) const {
     double height = 0;
-    for (const auto& line : heading_lines(p, width)) height += line.ascent + line.descent + sizes_.gap;
+    for (const auto& line : heading_lines(p, look_.legend_size, width))
+      height += line.ascent + line.descent + sizes_.gap;
     return height;
   }
   double legend_height(int panel) const {
@@ -423,7 +397,7 @@ class Layouter {
     const auto& panels = figure_.panels;
     std::vector<std::vector<TextBox>> all;
     for (std::size_t i = 0; i < panels.size(); ++i)
-      all.push_back(heading_lines(panels[i], frames_[i].width()));
+      all.push_back(heading_lines(panels[i], look_.legend_size, frames_[i].width()));
     for (std::size_t i = 0; i < panels.size(); ++i) {
       double top = frames_[i].top - row_margins_[static_cast<std::size_t>(row(i))].top;
       for (std::size_t line = 0; line < all[i].size(); ++line) {

@@ -68,12 +68,6 @@ struct Painter {
   bool over_map = false;  ///< lines must show on any colour
 };
 
-/// What each axis must show of these series.
-struct Extents {
-  Extent x, y, right;
-};
-Extents extents_of(const Plot& plot);
-
 /// Everything inside the frame, in order: regions, references, bands, bars, lines, error bars, markers.
 /// InputError if a region names an unknown series or a series' columns differ in length.
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,

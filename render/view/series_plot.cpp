@@ -4,6 +4,7 @@
 
 #include "common/error.hpp"
 #include "plot/draw.hpp"
+#include "plot/extents.hpp"
 #include "plot/layout.hpp"
 #include "plot/placed.hpp"
 #include "view/lay_over.hpp"
