@@ -263,11 +263,11 @@ std::string input_script(const Deck& deck, std::int64_t steps, std::int64_t ever
   constexpr int digits = 12;  // of a step in a file's name
   std::string text = "# written by chute export; run it with: mpirun -n RANKS lmp -in in.lammps\n" +
                      deck.begin + "read_data grains.data\n" + deck.model + contact_computes();
-  text += fmt::format("shell mkdir dumps\ndump grains all custom {} dumps/grains.* {}{}\n", every,
+  text += fmt::format("shell mkdir dumps contacts\ndump grains all custom {} dumps/grains.* {}{}\n", every,
                       dump_columns(), wall_columns(deck));
   text += fmt::format("dump_modify grains sort id format float %.17g pad {}\n", digits);
   text += fmt::format(
-      "dump contacts all local {} dumps/contacts.* {}\ndump_modify contacts format float %.17g pad {}\n",
+      "dump contacts all local {} contacts/contacts.* {}\ndump_modify contacts format float %.17g pad {}\n",
       every, contact_columns(), digits);
   text += fmt::format("thermo {}\nthermo_modify lost error\n", std::max<std::int64_t>(1, steps / 100));
   text += fmt::format("restart {} grains.restart.1 grains.restart.2\n",

@@ -93,10 +93,10 @@ void LammpsEngine<D>::advance(std::int64_t step) {
 }
 
 template <int D>
-fs::path LammpsEngine<D>::frame_file(const char* stem) const {
+std::string LammpsEngine<D>::frame_file(const char* stem) const {
   // Who looks between two dumps sees the one before: importing lets nobody.
   const auto at = std::ranges::upper_bound(steps_, step_);
-  return setup_.dumps / fmt::format("{}.{:012}", stem, *std::prev(at));
+  return fmt::format("{}.{:012}", stem, *std::prev(at));
 }
 
 template <int D>
@@ -111,8 +111,9 @@ void LammpsEngine<D>::know() const {
     take_grains(process_->folder() / "grains.frame");
     take_contacts(process_->folder() / "contacts.frame");
   } else {
-    take_grains(frame_file("grains"));
-    const auto contacts = frame_file("contacts");
+    take_grains(setup_.dumps / frame_file("grains"));
+    // beside, for a folder of frames holds nothing else
+    const auto contacts = setup_.dumps.parent_path() / "contacts" / frame_file("contacts");
     if (fs::exists(contacts)) take_contacts(contacts);
   }
   known_ = step_;
