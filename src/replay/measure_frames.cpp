@@ -123,6 +123,7 @@ class Measuring {
     const FrameScales scales{{run_.duration, length, g > 0 ? std::sqrt(g * length) : 1, between_},
                              between_,
                              closed,
+                             !first.velocity.empty(),
                              first.contacts.has_value()};
     outputs_ = frame_outputs(scales, job_.from, job_.only, job_.settings);
     for (const auto& output : outputs_) {
@@ -137,7 +138,6 @@ class Measuring {
   }
 
   void play(Snapshot frame) {
-    fs::create_directories(job_.folder);
     std::vector<double> times;
     std::vector<std::string> networks;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
@@ -149,6 +149,11 @@ class Measuring {
       const double time = job_.times[chosen_[k]];
       engine_->show(frame, step_of(time), time);
       note_what_is_there(frame);
+      if (frame.velocity.empty() && frame.size() > 0)
+        for (const auto& output : outputs_)
+          if (needs_velocities(output.word()))
+            throw InputError(fmt::format("{}: no array {}, of which {} tells", frame.name,
+                                         fields::velocity.name, output.word()));
       for (const auto& observer : observers_) observer->look({*engine_, {}, {}});
       if (job_.network && !frame.contacts) {
         const auto name = fmt::format("contacts/{:06}.vtp", k);

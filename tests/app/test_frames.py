@@ -141,6 +141,28 @@ class Frames(unittest.TestCase):
         self.assertEqual(table(self.path("space", "moments.csv")), table(self.path(out, "moments.csv")))
         self.call("render", back, "-o", self.new(), "--size", "160x120", "--frames", "2", "--jobs", "1", "--quiet")
 
+    def test_what_a_file_lacks_is_empty(self):
+        with open(self.path("bare.xyz"), "w", encoding="utf-8") as file:
+            for step in range(4):
+                file.write("64\n\n" + "".join("A %g %g %g\n" % (i % 4 + 0.01 * step, i // 4 % 4, i // 16) for i in range(64)))
+        out = self.new()
+        said = self.call("measure", "bare.xyz", "--radius", 0.51, "-o", out).stderr
+        for array in ("velocity", "angular_velocity", "mass", "normal_force"):
+            self.assertIn("measure: no array %s: " % array, said)
+        profile = table(self.path(out, "profiles.csv"))
+        filled = [k for k, n in enumerate(profile["grains"]) if float(n) > 0]
+        for name in profile:
+            values = {profile[name][k] for k in filled}
+            if name in ("h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "coordination", "coordination_err"):
+                self.assertNotIn("", values, name)
+            elif not name.endswith("_err"):
+                self.assertEqual(values, {""}, name)
+        # a cube of 4 by 4 by 4 that touches: 3 * 4 * 4 * 3 contacts
+        self.assertEqual(set(table(self.path(out, "series.csv"))["contacts"]), {"144"})
+        self.assertFalse(os.path.exists(self.path(out, "moments.csv")))
+        said = self.call("measure", "bare.xyz", "--radius", 0.51, "-o", self.new(), "--only", "moments", status=2).stderr
+        self.assertIn("bare.xyz: no array velocity, of which moments tells", said)
+
     def test_what_is_wrong_is_one_line(self):
         def line(*words):
             said = self.call(*words, status=2).stderr
