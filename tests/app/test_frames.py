@@ -130,6 +130,26 @@ class Frames(unittest.TestCase):
             told = [line.split('"')[1] for line in file if "timestep" in line]
         self.assertEqual(told, sorted(told, key=float))
 
+    def test_any_number_of_jobs_writes_the_same_files(self):
+        made = []
+        for jobs in (1, 3):
+            out = self.new()
+            self.call("convert", "space", "--to", "vtp", "-o", out, "--jobs", jobs, "--quiet")
+            files = {}
+            for at, _, names in os.walk(self.path(out)):
+                for name in names:
+                    with open(os.path.join(at, name), "rb") as file:
+                        files[name] = file.read()
+            made.append(files)
+        self.assertEqual(len(made[0]), 8)
+        self.assertEqual(made[0], made[1])
+        # a file that cannot be read ends all
+        shutil.copytree(self.path("flat"), self.path("broken"))
+        with open(self.path("broken", "frames", "000009.vtp"), "r+b") as file:
+            file.truncate(1000)
+        said = self.call("convert", "broken", "--to", "csv", "-o", self.new(), "--jobs", 3, "--quiet", status=2).stderr
+        self.assertIn("000009.vtp", said)
+
     def test_there_and_back(self):
         """chute -> dump -> chute: profiles of what came back are those of the run."""
         dumps, back, out = self.new(), None, None

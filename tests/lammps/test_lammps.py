@@ -294,6 +294,9 @@ class Lammps(unittest.TestCase):
         self.assertIn("--ranks", line("run", "flow.toml", "--ranks", 2))
         self.assertIn("has LAMMPS run there", line("import", self.exported()))
         self.assertFalse(os.path.exists(self.path("deck")))
+        self.write("impacts.toml", FLOW + "impacts = { from = 0 }\n")
+        said = self.call("export", "impacts.toml", "--lammps", "impacts", "--quiet").stderr
+        self.assertEqual(said, "export: output.impacts is left out: LAMMPS tells of no impacts\n")
         said = line("run", "flow.toml", "--set", "engine.method=lammps", "-o", "run", path=self.folder)
         self.assertIn('"lammps" needs the program lmp, Debian\'s package lammps: apt-get install lammps', said)
         self.assertFalse(os.path.exists(self.path("run")))
