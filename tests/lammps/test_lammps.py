@@ -264,6 +264,22 @@ class Lammps(unittest.TestCase):
         self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-10)
 
     @unittest.skipUnless(THERE, "lmp")
+    def test_walls_that_move(self):
+        """One that pushes steadily is the same to the last digits, one that shakes as the step shrinks."""
+        scene = TWO.replace("gravity = 0", "gravity = 1").replace('kind = "none"', 'kind = "none"\n[[wall]]\npoint = [0, 1.4]\nnormal = [0, 1]\nMOTION')
+        grains(self.path("two.vtk"), OBLIQUE)
+        apart = {}
+        for name, motion, steps in (("steady", "velocity = [0.3, 0.5]", 50), ("shakes", "oscillation = { amplitude = 0.1, frequency = 2 }", 50),
+                                    ("shakes", "oscillation = { amplitude = 0.1, frequency = 2 }", 800)):
+            self.write("two.toml", scene.replace("MOTION", motion))
+            self.run_both("two.toml", "engine.steps_per_contact=%d" % steps, "run.duration=0.5")
+            soft, other = self.after("soft", 5), self.after("lammps", 5)
+            apart[name, steps] = max(abs(a - b) for a, b in zip(soft, other))
+        self.assertLess(apart["steady", 50], 1e-12)
+        self.assertLess(apart["shakes", 50], 0.01)
+        self.assertLess(apart["shakes", 800], apart["shakes", 50] / 10)
+
+    @unittest.skipUnless(THERE, "lmp")
     def test_it_goes_on_where_it_stopped(self):
         self.write("flow.toml", FLOW)
         self.call("run", "flow.toml", "--set", "engine.method=lammps", "-o", "run", "--set", "run.duration=0.5", "--quiet")

@@ -156,23 +156,46 @@ class DeckMaker {
     return text;
   }
 
-  /// A plane as LAMMPS says it: along an axis, or as the border of a region.
-  std::string wall(std::size_t w, const laws::ContactLaws& laws) {
+  /// How far a wall has moved along an axis, as a formula of LAMMPS's; nothing where it never does.
+  std::string shift(const Wall<D>& wall, int axis) const {
+    const double v = wall.motion.velocity[axis], amplitude = wall.motion.amplitude * wall.normal[axis];
+    std::string formula;
+    if (v != 0) formula = fmt::format("{}*step*{}", v, dt_);
+    if (amplitude != 0 && wall.oscillates())
+      formula +=
+          fmt::format("{}{}*sin({}*step*{})", formula.empty() ? "" : "+", amplitude, wall.motion.rate(), dt_);
+    return formula;
+  }
+
+  /// Where a plane is: along an axis, or as the border of a region, which can move.
+  struct Border {
+    std::string commands, style, where;
+  };
+  Border border(std::size_t w) const {
     const auto& wall = world_.walls[w];
-    std::string where, style = "wall/gran";
-    for (int k = 0; k < D; ++k)
-      if (std::abs(wall.normal[k]) == 1)
-        where = fmt::format("{}plane {}", "xyz"[k],
-                            wall.normal[k] > 0 ? fmt::format("{} NULL", wall.point[k])
-                                               : fmt::format("NULL {}", wall.point[k]));
-    std::string text;
-    if (where.empty()) {
-      style = "wall/gran/region";
-      where = fmt::format("region wall{}", w);
-      text = fmt::format("region wall{} plane {} {} {} {} {} {} side in\n", w, wall.point[0], wall.point[1],
-                         D == 3 ? wall.point[D - 1] : 0.0, wall.normal[0], wall.normal[1],
-                         D == 3 ? wall.normal[D - 1] : 0.0);
+    if (!wall.moves())
+      for (int k = 0; k < D; ++k)
+        if (std::abs(wall.normal[k]) == 1)
+          return {"", "wall/gran",
+                  fmt::format("{}plane {}", "xyz"[k],
+                              wall.normal[k] > 0 ? fmt::format("{} NULL", wall.point[k])
+                                                 : fmt::format("NULL {}", wall.point[k]))};
+    std::string variables, moves;
+    for (int k = 0; k < 3; ++k) {
+      const auto formula = k < D ? shift(wall, k) : std::string();
+      const auto name = fmt::format("wall{}{}", w, "xyz"[k]);
+      if (!formula.empty()) variables += fmt::format("variable {} equal {}\n", name, formula);
+      moves += formula.empty() ? " NULL" : " v_" + name;
     }
+    const auto region =
+        fmt::format("region wall{} plane {} {} {} {} {} {} side in{}\n", w, wall.point[0], wall.point[1],
+                    D == 3 ? wall.point[D - 1] : 0.0, wall.normal[0], wall.normal[1],
+                    D == 3 ? wall.normal[D - 1] : 0.0, variables.empty() ? "" : " move" + moves);
+    return {variables + region, "wall/gran/region", fmt::format("region wall{}", w)};
+  }
+
+  std::string wall(std::size_t w, const laws::ContactLaws& laws) {
+    auto [text, style, where] = border(w);
     const auto add = [&](const std::string& group, const std::string& model) {
       const auto name = fmt::format("wall{}_{}", w, deck_.wall_fixes[w].size());
       text += fmt::format("fix {} {} {} {} {} contacts\n", name, group, style, model, where);

@@ -151,7 +151,7 @@ void LammpsEngine<D>::take_grains(const fs::path& file) const {
         if (frame.at(row, at) == 0) continue;
         Contact contact;
         contact.a = static_cast<std::int64_t>(i), contact.b = wall_id(w);
-        const auto touch = around_.walls[w].nearest(grains_.place(i), 0, around_.domain);
+        const auto touch = around_.walls[w].nearest(grains_.place(i), time(), around_.domain);
         const Vec<D> n = -1.0 * touch.normal;
         Vec<D> force;
         for (int k = 0; k < D; ++k) force[k] = -frame.at(row, at + 1 + static_cast<std::size_t>(k));
@@ -217,6 +217,8 @@ EnergyAccount LammpsEngine<D>::energy() const {
   EnergyAccount account;
   account.add_motion<D>(grains(), around_.gravity, start_);
   account.elastic = account.normal_loss = account.shear_loss = account.start = unknown;
+  if (std::ranges::any_of(around_.walls, [](const auto& wall) { return wall.moves(); }))
+    account.wall_work = unknown;
   return account;
 }
 
