@@ -115,7 +115,7 @@ class DeckMaker {
 
   std::string contacts() {
     std::string text;
-    if (const auto classic = apart_ ? classic_model(laws_, pairs_that_meet()) : std::nullopt) {
+    if (const auto classic = apart_ ? classic_model(laws_, pairs_that_meet()) : classic_model_of_all(laws_)) {
       text = fmt::format("pair_style gran/{} {}\npair_coeff * *\n", classic->style, classic->arguments);
     } else if (!apart_) {
       text = fmt::format("pair_style granular\npair_coeff * * {}\n", accept(model_of_all(laws_)));
@@ -201,16 +201,18 @@ class DeckMaker {
       text += fmt::format("fix {} {} {} {} {} contacts\n", name, group, style, model, where);
       deck_.wall_fixes[w].push_back(name);
     };
+    const auto text_for = [&](const std::optional<ClassicModel>& classic, const auto& model) {
+      return classic ? classic->style + " " + classic->arguments : "granular " + accept(model());
+    };
     if (!apart_ || moving_kinds() > most_wall_kinds) {
-      add("grains", "granular " + accept(model_of_all(laws)));
+      add("grains", text_for(classic_model_of_all(laws), [&] { return model_of_all(laws); }));
       return text;
     }
     for (std::size_t k = 0; k < moving_kinds() && !wrong_; ++k) {
       if (w == 0) text += fmt::format("group kind{} type {}\n", k + 1, k + 1);
       const laws::Pair pair(kinds_[k].mass, kinds_[k].radius);
-      const auto classic = classic_model(laws, {pair});
       add(fmt::format("kind{}", k + 1),
-          classic ? classic->style + " " + classic->arguments : "granular " + accept(model_of(laws, pair)));
+          text_for(classic_model(laws, {pair}), [&] { return model_of(laws, pair); }));
     }
     return text;
   }
