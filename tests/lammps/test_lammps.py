@@ -256,8 +256,14 @@ class Lammps(unittest.TestCase):
         self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
         counts = [self.call("info", run + "/contacts/000002.vtp").stdout.split("\n")[1] for run in ("soft", "lammps")]
         self.assertEqual(counts[0], counts[1])
+        self.run_both("box.toml", "contact.attraction=false")
+        soft, other = self.after("soft", 10), self.after("lammps", 10)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
         # more sizes than types: one restitution for all by `damping tsuji`
         self.write("flow.toml", FLOW)
+        self.run_both("flow.toml", "grains.rotation=false")
+        soft, other = self.after("soft", 10), self.after("lammps", 10)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
         self.run_both("flow.toml", "grains.count=450", "bed.count=150", "run.duration=0.1", 'contact.tangential={law="frictionless"}',
                       'contact.normal={law="spring-dashpot",stiffness=1e4,restitution=0.6}')
         soft, other = self.after("soft", 1), self.after("lammps", 1)
