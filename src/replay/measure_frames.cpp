@@ -89,10 +89,20 @@ class Measuring {
       shortest = std::min(shortest, way);
     }
     if (std::isfinite(shortest)) between_ = shortest;
+    constexpr double countable = 9e15;  // beyond it doubles miss some whole numbers
+    for (const std::size_t k : chosen_)
+      if (!(std::abs(job_.times[k] / between_) < countable))
+        throw InputError(
+            fmt::format("frame {}: its time {:.6g} is no multiple of {:.3g}, the shortest time between "
+                        "frames, that can be counted",
+                        k, job_.times[k], between_));
   }
 
-  /// A step is the shortest time between frames, so that no two share one.
-  std::int64_t step_of(double time) const { return std::llround(time / between_); }
+  /// A step is the shortest time between frames.
+  std::int64_t step_of(double time) const {
+    const auto step = std::llround(time / between_);
+    return step == 0 && time != 0 ? 1 : step;  // step 0 is at time 0
+  }
 
   void set_up(const Snapshot& first) {
     if (first.size() == 0) throw InputError(first.name + ": holds no grains");

@@ -183,6 +183,22 @@ class Frames(unittest.TestCase):
         said = self.call("measure", "bare.xyz", "--radius", 0.51, "-o", self.new(), "--only", "moments", status=2).stderr
         self.assertIn("bare.xyz: no array velocity, of which moments tells", said)
 
+    def test_times_are_those_of_the_files(self):
+        def xyz(name, times):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                for time in times:
+                    file.write("2\nProperties=species:S:1:pos:R:3 Time=%s\nA 0 0 0\nA 3 1 2\n" % time)
+            return name
+        for name, times in (("one.xyz", [0.3]), ("two.xyz", [0.3, 1.3]), ("uneven.xyz", [0, 0.1, 0.35, 2])):
+            out = self.new()
+            self.call("measure", xyz(name, times), "--diameter", 1, "-o", out, "--only", "series")
+            told = [float(t) for t in table(self.path(out, "series.csv"))["time"]]
+            self.assertEqual(len(told), len(times))
+            for a, b in zip(told, times):
+                self.assertAlmostEqual(a, b, delta=1e-12)
+        said = self.call("measure", xyz("far.xyz", [0, 1e-300, 1]), "--diameter", 1, "-o", self.new(), status=2).stderr
+        self.assertIn("that can be counted", said)
+
     def test_what_is_wrong_is_one_line(self):
         def line(*words):
             said = self.call(*words, status=2).stderr
