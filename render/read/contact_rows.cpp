@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <type_traits>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
@@ -20,6 +21,18 @@ const PointArray& array_of(const PointSet& set, const fields::Field& field, int 
                                path.string(), field.name, components));
 }
 
+constexpr double largest_number = 2e9;  // of a grain or a state: whatever is larger is no number of one
+
+/// Forces need not be known. The first partner is a grain.
+void check(const ContactRow& row, std::size_t number, const std::filesystem::path& path) {
+  double sum = row.overlap;
+  for (std::size_t k = 0; k < 3; ++k) sum += row.point[k] + row.normal[k] + row.branch[k];
+  if (row.a < 0) throw InputError(fmt::format("{}: contact {}: a is no grain", path.string(), number));
+  if (!std::isfinite(sum))
+    throw InputError(fmt::format("{}: contact {}: place, normal, branch or overlap is not a finite number",
+                                 path.string(), number));
+}
+
 }  // namespace
 
 std::vector<ContactRow> read_contact_rows(const std::filesystem::path& path) {
@@ -34,7 +47,12 @@ std::vector<ContactRow> read_contact_rows(const std::filesystem::path& path) {
     for (const auto& cell : set.cells)
       if (cell.corners.size() == 2) {
         auto& to = rows[at++].*member;
-        to = static_cast<std::remove_reference_t<decltype(to)>>(array.at(cell.number));
+        const double value = array.at(cell.number);
+        using Number = std::remove_reference_t<decltype(to)>;
+        if (std::is_integral_v<Number> && !(std::abs(value) < largest_number))
+          throw InputError(
+              fmt::format("{}: contact {}: {} is no whole number", path.string(), at - 1, field.name));
+        to = static_cast<Number>(value);
       }
   };
   const auto vector = [&](const fields::Field& field, std::array<double, 3> ContactRow::*member) {
@@ -57,6 +75,7 @@ std::vector<ContactRow> read_contact_rows(const std::filesystem::path& path) {
   scalar(fields::normal_force, &ContactRow::normal_force);
   scalar(fields::shear_force, &ContactRow::shear_force);
   scalar(fields::state, &ContactRow::state);
+  for (std::size_t k = 0; k < rows.size(); ++k) check(rows[k], k, path);
   return rows;
 }
 

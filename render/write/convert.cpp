@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
+#include <sstream>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/in_child.hpp"
+#include "common/side_by_side.hpp"
 #include "read/run_frames.hpp"
 #include "write/frame_file.hpp"
 
@@ -32,6 +36,29 @@ bool is_tilted(const read::GrainFrame& frame) {
   return false;
 }
 
+/// What is to be known of a frame that has been written.
+struct Written {
+  std::optional<double> time;
+  std::size_t left_out = 0;
+  bool tilted = false;
+};
+
+/// The same as text, for it comes from another process.
+std::string text_of(const Written& w) {
+  return fmt::format("{} {} {} {}", w.time.has_value() ? 1 : 0, w.time.value_or(0), w.left_out,
+                     w.tilted ? 1 : 0);
+}
+Written written_from(const std::string& text) {
+  std::istringstream in(text);
+  int timed = 0, tilted = 0;
+  std::string time;
+  Written w;
+  in >> timed >> time >> w.left_out >> tilted;
+  if (timed) w.time = std::stod(time);
+  w.tilted = tilted != 0;
+  return w;
+}
+
 class Conversion {
  public:
   explicit Conversion(const ConvertJob& job) : job_(job) {}
@@ -40,49 +67,70 @@ class Conversion {
     if (job_.one_file && job_.format == Format::vtp)
       throw InputError("--one-file: a VTK file holds one time; leave it out, or take another format");
     refuse_folder_in_use(job_.folder);
-    std::vector<read::FrameFile> frames;
     for (const auto& source : job_.sources)
-      for (auto& frame : read::find_frames(source)) frames.push_back(std::move(frame));
+      for (auto& frame : read::find_frames(source)) frames_.push_back(std::move(frame));
     // A shell gives dump.10 before dump.2.
-    if (std::ranges::all_of(frames, [](const auto& frame) { return frame.time.has_value(); }))
-      std::ranges::stable_sort(frames, {}, [](const auto& frame) { return *frame.time; });
-    for (const auto& frame : frames) {
-      add(frame);
-      if (job_.progress && !job_.progress(report_.frames, frames.size()))
-        throw WorkError(fmt::format("stopped; {} of {} frames are in {}", report_.frames, frames.size(),
-                                    job_.folder.string()));
-    }
+    if (std::ranges::all_of(frames_, [](const auto& frame) { return frame.time.has_value(); }))
+      std::ranges::stable_sort(frames_, {}, [](const auto& frame) { return *frame.time; });
+    written_.resize(frames_.size());
+    written_[0] = add(0);  // what cannot be read leaves no folder
+    told(1);
+    if (job_.jobs > 1 && !job_.one_file)
+      side_by_side();
+    else
+      for (std::size_t k = 1; k < frames_.size(); ++k) written_[k] = add(k), told(k + 1);
     finish();
     return report_;
   }
 
  private:
   const ConvertJob& job_;
+  std::vector<read::FrameFile> frames_;
+  std::vector<Written> written_;  // of each frame
   ConvertReport report_;
   std::optional<Temporary> whole_;
-  std::vector<std::pair<double, std::string>> times_;
 
   std::string_view ending() const { return endings[static_cast<std::size_t>(job_.format)]; }
+  std::string name_of(std::size_t k) const {
+    return fmt::format("{}{:06}.{}", job_.format == Format::vtp ? "frames/" : "", k, ending());
+  }
 
-  void add(const read::FrameFile& file) {
+  void told(std::size_t done) const {
+    if (job_.progress && !job_.progress(done, frames_.size())) stop(done);
+  }
+  [[noreturn]] void stop(std::size_t done) const {
+    throw WorkError(
+        fmt::format("stopped; {} of {} frames are in {}", done, frames_.size(), job_.folder.string()));
+  }
+
+  /// Each frame in a process of its own: VTK's readers are not made for threads, and what a frame took is given back.
+  void side_by_side() {
+    std::atomic<std::size_t> done{1};
+    const auto goes_on = [&](double) { return !job_.progress || job_.progress(done, frames_.size()); };
+    chute::side_by_side(frames_.size() - 1, job_.jobs, goes_on, [&](std::size_t piece, const Report& report) {
+      const auto k = piece + 1;
+      const auto died =
+          fmt::format("{}: cannot be converted: the process that read it ended", frames_[k].path.string());
+      written_[k] = written_from(in_child([&] { return text_of(add(k)); }, died));
+      ++done;
+      report(1);
+    });
+  }
+
+  Written add(std::size_t k) {
+    const auto& file = frames_[k];
     const auto frame = read::parse_frame(read::read_files(file), job_.meanings);
-    const FrameFacts facts{report_.frames, frame.time ? frame.time : file.time, job_.from_one};
+    const FrameFacts facts{k, frame.time ? frame.time : file.time, job_.from_one};
     const auto bytes = bytes_of(frame, facts);
-    if (report_.frames == 0) fs::create_directories(job_.folder);
-    report_.left_out += frame.left_out;
-    report_.tilted |= is_tilted(frame) && (job_.format == Format::vtp || job_.format == Format::csv);
+    if (k == 0) fs::create_directories((job_.folder / name_of(k)).parent_path());
     if (job_.one_file) {
       if (!whole_) whole_.emplace(job_.folder / fmt::format("frames.{}", ending()));
       whole_->write(bytes);
-    } else if (job_.format == Format::vtp) {
-      const auto name = fmt::format("frames/{:06}.vtp", report_.frames);
-      fs::create_directories(job_.folder / "frames");
-      write_atomically(job_.folder / name, bytes, Flush::later);
-      times_.emplace_back(facts.time.value_or(static_cast<double>(facts.number)), name);
     } else {
-      write_atomically(job_.folder / fmt::format("{:06}.{}", report_.frames, ending()), bytes, Flush::later);
+      write_atomically(job_.folder / name_of(k), bytes, Flush::later);
     }
-    ++report_.frames;
+    return {facts.time, frame.left_out,
+            is_tilted(frame) && (job_.format == Format::vtp || job_.format == Format::csv)};
   }
 
   std::string bytes_of(const read::GrainFrame& frame, const FrameFacts& facts) const {
@@ -92,7 +140,7 @@ class Conversion {
       case Format::xyz:
         return xyz_frame(frame, facts);
       case Format::csv:
-        return job_.one_file ? csv_rows(frame, facts, report_.frames == 0) : csv_frame(frame, facts);
+        return job_.one_file ? csv_rows(frame, facts, facts.number == 0) : csv_frame(frame, facts);
       case Format::vtp:
         break;
     }
@@ -104,7 +152,14 @@ class Conversion {
       whole_->flush();
       whole_->move_into_place();
     }
-    if (job_.format == Format::vtp) write_atomically(job_.folder / "frames.pvd", time_index(times_));
+    std::vector<std::pair<double, std::string>> times;
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      times.emplace_back(written_[k].time.value_or(static_cast<double>(k)), name_of(k));
+      report_.left_out += written_[k].left_out;
+      report_.tilted |= written_[k].tilted;
+    }
+    report_.frames = frames_.size();
+    if (job_.format == Format::vtp) write_atomically(job_.folder / "frames.pvd", time_index(times));
   }
 };
 

@@ -19,6 +19,7 @@ struct ConvertJob {
   std::filesystem::path folder;
   Format format = Format::vtp;
   read::Meanings meanings;
+  int jobs = 1;  ///< frames that are worked on at once, each in a process of its own; the files are the same
   bool one_file = false;  ///< all frames in one file; not of VTK's
   bool from_one = false;  ///< FrameFacts::from_one
   /// Told after every frame; false stops.
@@ -30,7 +31,7 @@ struct ConvertReport {
   bool tilted = false;  ///< a tilted box went into files that have no place for one
 };
 
-/// Reads frame after frame and writes each as soon as it is read: memory holds one. The folder must be new or empty, and is
+/// Reads frame after frame and writes each as soon as it is read: memory holds one, or one a job. The folder must be new or empty, and is
 /// made when the first frame has been read. InputError as read_frame; WorkError if a file cannot be written.
 ConvertReport convert(const ConvertJob& job);
 

@@ -31,6 +31,14 @@ const read::PointArray* numbers(const read::GrainFrame& frame, std::string_view 
   return array && array->components == 1 && array->words.empty() ? array : nullptr;
 }
 
+/// The same, if all are numbers that a grain or a species may have.
+const read::PointArray* whole_numbers(const read::GrainFrame& frame, std::string_view name) {
+  constexpr double largest = 2e9;
+  const auto* array = numbers(frame, name);
+  const auto good = [](double v) { return std::abs(v) <= largest && v == std::floor(v); };
+  return array && std::ranges::all_of(array->values, good) ? array : nullptr;
+}
+
 /// Spins in the plane may be one number a grain.
 std::vector<std::array<double, 3>> spins(const read::GrainFrame& frame) {
   if (const auto* flat = numbers(frame, fields::angular_velocity.name)) {
@@ -121,10 +129,10 @@ replay::Snapshot snapshot_of(const read::FrameFile& file, const FileSays& says) 
   for (std::size_t i = 0; i < frame.size(); ++i) shot.place.push_back({frame.x[i], frame.y[i], frame.z[i]});
   shot.fixed = fixed_of(frame, says.bed);
   shot.radius = frame.radius;
-  if (const auto* id = numbers(frame, fields::id.name))
-    for (const double v : id->values) shot.id.push_back(std::llround(v));
+  if (const auto* id = whole_numbers(frame, fields::id.name))
+    for (const double v : id->values) shot.id.push_back(static_cast<std::int64_t>(v));
   if (const auto* mass = numbers(frame, fields::mass.name)) shot.mass = mass->values;
-  if (const auto* material = numbers(frame, fields::material.name))
+  if (const auto* material = whole_numbers(frame, fields::material.name))
     for (const double v : material->values) shot.material.push_back(static_cast<int>(v));
   shot.velocity = tuples<3>(frame, fields::velocity.name);
   shot.spin = spins(frame);

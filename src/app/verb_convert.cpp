@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 #include "app/file_meanings.hpp"
 #include "app/interrupt.hpp"
@@ -20,6 +21,7 @@ struct ConvertArguments {
   std::vector<std::string> sources;
   std::string folder, format;
   FileMeanings meanings;
+  int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   bool one_file = false, from_one = false, quiet = false;
 };
 
@@ -39,6 +41,7 @@ void convert(const ConvertArguments& a) {
   job.folder = a.folder;
   job.format = format_of(a.format);
   job.meanings = a.meanings.read();
+  job.jobs = a.jobs;
   job.one_file = a.one_file, job.from_one = a.from_one;
   watch_for_interrupt();
   Progress progress("convert", a.quiet);
@@ -74,6 +77,9 @@ void add_convert(CLI::App& app) {
   verb->add_flag("--from-one", a->from_one,
                  "dumps: ids and types begin with 1, as LAMMPS wants of what it reads; default as they are");
   a->meanings.add_options(*verb);
+  verb->add_option("-j,--jobs", a->jobs, "frames that are worked on at once; the files are the same")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   verb->add_flag("--quiet", a->quiet, "no progress");
   verb->footer("Example: chute convert out/demo --to lammps-dump -o out/dumps");
   verb->callback([a] { convert(*a); });

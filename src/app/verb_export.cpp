@@ -48,6 +48,17 @@ void refuse_other_methods(const Input& input, const std::vector<std::string>& se
                     integrator, table["engine"]["integrator"] ? "" : ", the default,"));
 }
 
+/// What watches single impacts has nothing to see in dumps: such outputs of the scene go.
+void leave_out_impacts(const Input& input, std::vector<std::string>& settings) {
+  const auto table = table_of(input, settings);
+  for (const auto& kind : measure::list()) {
+    const auto output = kind.make();
+    if (!output->needs().impacts || !table["output"][kind.word]) continue;
+    tell("export: output.{} is left out: LAMMPS tells of no impacts\n", kind.word);
+    settings.push_back(fmt::format("output.{}=", kind.word));
+  }
+}
+
 template <int D>
 lammps::Deck deck_of(const scene::Scene& scene, double dt, const TomlReader& reader) {
   const auto made = lammps::make_deck<D>(scene::make_world<D>(scene), scene::setting_of(scene), dt);
@@ -63,6 +74,7 @@ void export_scene(const ExportArguments& a) {
   const auto input = read_input(of_run ? (fs::path(a.scene) / "scene.toml").string() : a.scene);
   refuse_other_methods(input, a.settings);
   auto settings = a.settings;
+  leave_out_impacts(input, settings);
   settings.emplace_back("engine.method=lammps");
   auto scene = scene::parse_scene(input.text, input.name, settings);
   // The step is part of what is exported: what comes back is looked at in other intervals.

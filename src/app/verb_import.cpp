@@ -24,6 +24,17 @@ struct ImportArguments {
   bool force = false, quiet = false;
 };
 
+/// LAMMPS may still be writing the last dump, or was killed while it did.
+void leave_out_unfinished(std::vector<std::int64_t>& steps, const fs::path& dumps) {
+  if (steps.empty()) return;
+  try {
+    lammps::read_dump_frame(dumps / fmt::format("grains.{:012}", steps.back()));
+  } catch (const InputError& error) {
+    tell("import: {}: left out\n", error.what());
+    steps.pop_back();
+  }
+}
+
 /// All outputs of the scene look at the dumps, no more and no less.
 std::vector<std::string> settings_for(const Input& input, const fs::path& dumps) {
   const auto table = parse_toml(input.text, input.name);
@@ -32,7 +43,8 @@ std::vector<std::string> settings_for(const Input& input, const fs::path& dumps)
   if (!dt || table["engine"]["method"].value_or(std::string()) != "lammps")
     reader.fail("engine",
                 "is not the scene of an export: chute export writes method = \"lammps\" with its time_step");
-  const auto steps = lammps::steps_in(dumps, "grains");
+  auto steps = lammps::steps_in(dumps, "grains");
+  leave_out_unfinished(steps, dumps);
   if (steps.size() < 2)
     throw InputError(dumps.string() +
                      ": no dumps grains.STEP, two at least: has LAMMPS run there (lmp -in in.lammps)?");

@@ -18,6 +18,7 @@ Moments moments_of(const GrainsView& grains) {
     second += square / n, fourth += square * square / n;
   }
   const auto d = static_cast<double>(D);
+  if (std::isnan(second)) return {second, second};
   return {second / d, second > 0 ? fourth * d / ((d + 2) * second * second) - 1 : 0};
 }
 

@@ -14,6 +14,12 @@ double below(double y, double R, int dimensions) {
   return R * R * (std::asin(t / R) + pi / 2) + t * std::sqrt(R * R - t * t);
 }
 
+/// A variance without what rounding takes it below 0. That of grains whose velocities are not known is not known either;
+/// that of no grains is 0.
+double variance_of(double value, double count) {
+  return count > 0 && std::isnan(value) ? value : std::max(0.0, value);
+}
+
 }  // namespace
 
 Profiles::Profiles(const Frame& frame, double bin, const Window& window)
@@ -91,13 +97,13 @@ std::vector<ProfileBin> Profiles::result(double start) const {
       bin.v[k] = per_grain([k](const Sums& s) { return s.v[k]; });
       bin.sigma[k] = estimate([k](const Sums& s, double) {
         const double mean = s.v[k] / s.count;
-        return std::sqrt(std::max(0.0, s.v2[k] / s.count - mean * mean));
+        return std::sqrt(variance_of(s.v2[k] / s.count - mean * mean, s.count));
       });
     }
     bin.temperature = estimate([&](const Sums& s, double) {
       double sum = 0;
       for (std::size_t k = 0; k < 3; ++k) sum += s.v2[k] / s.count - (s.v[k] / s.count) * (s.v[k] / s.count);
-      return std::max(0.0, sum) / frame_.dimensions;
+      return variance_of(sum, s.count) / frame_.dimensions;
     });
     bin.omega = per_grain([](const Sums& s) { return s.omega; });
     for (std::size_t t = 0; t < 6; ++t) {

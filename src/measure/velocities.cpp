@@ -30,7 +30,8 @@ class Velocities final : public Remembering<Velocities> {
     pending_.release(grains.time, rest_, [&](std::size_t i, double time, const Velocity& v) {
       kept_.add({time, static_cast<double>(i), v[0], v[1], v[2]});
       for (std::size_t k = 0; k < dimensions(); ++k)
-        counts_[k][static_cast<std::int64_t>(std::floor(v[k] / bin_))] += 1;
+        if (std::isfinite(v[k]))  // of files it may be anything
+          counts_[k][static_cast<std::int64_t>(std::floor(v[k] / bin_))] += 1;
     });
   }
   void write(const Flow&) const override {

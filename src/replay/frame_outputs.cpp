@@ -47,6 +47,8 @@ std::vector<std::string> measurable() {
   return words;
 }
 
+bool needs_velocities(const std::string& word) { return word == "velocities" || word == "moments"; }
+
 std::vector<Chosen<measure::Output>> frame_outputs(const FrameScales& of, double from,
                                                    const std::vector<std::string>& only,
                                                    const std::vector<std::string>& settings) {
@@ -56,6 +58,7 @@ std::vector<Chosen<measure::Output>> frame_outputs(const FrameScales& of, double
   if (only.empty())
     for (const auto& m : all) {
       const std::string word = m.word;
+      if (!of.velocities && needs_velocities(word)) continue;
       if (!m.by_itself || (word == "pairs" && !of.closed_box) || (word == "forces" && !of.forces)) continue;
       wanted.push_back(word);
     }

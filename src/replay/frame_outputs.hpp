@@ -15,8 +15,12 @@ struct FrameScales {
   measure::Scales scales;
   double between = 1;       ///< shortest time between two frames
   bool closed_box = false;  ///< it repeats in all directions
+  bool velocities = false;  ///< grains have them
   bool forces = false;      ///< contacts have forces
 };
+
+/// Does the output say nothing without velocities?
+bool needs_velocities(const std::string& word);
 
 /// The outputs whose names are in `only`, or, where it is empty, those that the frames have something for, with keys as in a scene's
 /// [output]: `settings` are WORD.key=value. All of them look at every frame from `from` on. InputError that names the setting.

@@ -89,10 +89,20 @@ class Measuring {
       shortest = std::min(shortest, way);
     }
     if (std::isfinite(shortest)) between_ = shortest;
+    constexpr double countable = 9e15;  // beyond it doubles miss some whole numbers
+    for (const std::size_t k : chosen_)
+      if (!(std::abs(job_.times[k] / between_) < countable))
+        throw InputError(
+            fmt::format("frame {}: its time {:.6g} is no multiple of {:.3g}, the shortest time between "
+                        "frames, that can be counted",
+                        k, job_.times[k], between_));
   }
 
-  /// A step is the shortest time between frames, so that no two share one.
-  std::int64_t step_of(double time) const { return std::llround(time / between_); }
+  /// A step is the shortest time between frames.
+  std::int64_t step_of(double time) const {
+    const auto step = std::llround(time / between_);
+    return step == 0 && time != 0 ? 1 : step;  // step 0 is at time 0
+  }
 
   void set_up(const Snapshot& first) {
     if (first.size() == 0) throw InputError(first.name + ": holds no grains");
@@ -123,6 +133,7 @@ class Measuring {
     const FrameScales scales{{run_.duration, length, g > 0 ? std::sqrt(g * length) : 1, between_},
                              between_,
                              closed,
+                             !first.velocity.empty(),
                              first.contacts.has_value()};
     outputs_ = frame_outputs(scales, job_.from, job_.only, job_.settings);
     for (const auto& output : outputs_) {
@@ -137,7 +148,6 @@ class Measuring {
   }
 
   void play(Snapshot frame) {
-    fs::create_directories(job_.folder);
     std::vector<double> times;
     std::vector<std::string> networks;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
@@ -149,6 +159,11 @@ class Measuring {
       const double time = job_.times[chosen_[k]];
       engine_->show(frame, step_of(time), time);
       note_what_is_there(frame);
+      if (frame.velocity.empty() && frame.size() > 0)
+        for (const auto& output : outputs_)
+          if (needs_velocities(output.word()))
+            throw InputError(fmt::format("{}: no array {}, of which {} tells", frame.name,
+                                         fields::velocity.name, output.word()));
       for (const auto& observer : observers_) observer->look({*engine_, {}, {}});
       if (job_.network && !frame.contacts) {
         const auto name = fmt::format("contacts/{:06}.vtp", k);

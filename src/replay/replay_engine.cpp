@@ -71,6 +71,7 @@ class Replay final : public ReplayEngine {
   EnergyAccount energy() const override {
     EnergyAccount account;
     account.elastic = account.normal_loss = account.shear_loss = account.start = unknown;
+    account.wall_work = account.projection_work = unknown;
     account.add_motion<D>(grains(), gravity_, start_);
     if (!shown_from_start_ || norm(gravity_) == 0) account.gravity_work = unknown;
     return account;

@@ -130,6 +130,26 @@ class Frames(unittest.TestCase):
             told = [line.split('"')[1] for line in file if "timestep" in line]
         self.assertEqual(told, sorted(told, key=float))
 
+    def test_any_number_of_jobs_writes_the_same_files(self):
+        made = []
+        for jobs in (1, 3):
+            out = self.new()
+            self.call("convert", "space", "--to", "vtp", "-o", out, "--jobs", jobs, "--quiet")
+            files = {}
+            for at, _, names in os.walk(self.path(out)):
+                for name in names:
+                    with open(os.path.join(at, name), "rb") as file:
+                        files[name] = file.read()
+            made.append(files)
+        self.assertEqual(len(made[0]), 8)
+        self.assertEqual(made[0], made[1])
+        # a file that cannot be read ends all
+        shutil.copytree(self.path("flat"), self.path("broken"))
+        with open(self.path("broken", "frames", "000009.vtp"), "r+b") as file:
+            file.truncate(1000)
+        said = self.call("convert", "broken", "--to", "csv", "-o", self.new(), "--jobs", 3, "--quiet", status=2).stderr
+        self.assertIn("000009.vtp", said)
+
     def test_there_and_back(self):
         """chute -> dump -> chute: profiles of what came back are those of the run."""
         dumps, back, out = self.new(), None, None
@@ -140,6 +160,44 @@ class Frames(unittest.TestCase):
         self.call("measure", back, "-o", out, "--from", 1, "--only", "moments")
         self.assertEqual(table(self.path("space", "moments.csv")), table(self.path(out, "moments.csv")))
         self.call("render", back, "-o", self.new(), "--size", "160x120", "--frames", "2", "--jobs", "1", "--quiet")
+
+    def test_what_a_file_lacks_is_empty(self):
+        with open(self.path("bare.xyz"), "w", encoding="utf-8") as file:
+            for step in range(4):
+                file.write("64\n\n" + "".join("A %g %g %g\n" % (i % 4 + 0.01 * step, i // 4 % 4, i // 16) for i in range(64)))
+        out = self.new()
+        said = self.call("measure", "bare.xyz", "--radius", 0.51, "-o", out).stderr
+        for array in ("velocity", "angular_velocity", "mass", "normal_force"):
+            self.assertIn("measure: no array %s: " % array, said)
+        profile = table(self.path(out, "profiles.csv"))
+        filled = [k for k, n in enumerate(profile["grains"]) if float(n) > 0]
+        for name in profile:
+            values = {profile[name][k] for k in filled}
+            if name in ("h", "grains", "eta", "eta_err", "eta_exact", "eta_exact_err", "coordination", "coordination_err"):
+                self.assertNotIn("", values, name)
+            elif not name.endswith("_err"):
+                self.assertEqual(values, {""}, name)
+        # a cube of 4 by 4 by 4 that touches: 3 * 4 * 4 * 3 contacts
+        self.assertEqual(set(table(self.path(out, "series.csv"))["contacts"]), {"144"})
+        self.assertFalse(os.path.exists(self.path(out, "moments.csv")))
+        said = self.call("measure", "bare.xyz", "--radius", 0.51, "-o", self.new(), "--only", "moments", status=2).stderr
+        self.assertIn("bare.xyz: no array velocity, of which moments tells", said)
+
+    def test_times_are_those_of_the_files(self):
+        def xyz(name, times):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                for time in times:
+                    file.write("2\nProperties=species:S:1:pos:R:3 Time=%s\nA 0 0 0\nA 3 1 2\n" % time)
+            return name
+        for name, times in (("one.xyz", [0.3]), ("two.xyz", [0.3, 1.3]), ("uneven.xyz", [0, 0.1, 0.35, 2])):
+            out = self.new()
+            self.call("measure", xyz(name, times), "--diameter", 1, "-o", out, "--only", "series")
+            told = [float(t) for t in table(self.path(out, "series.csv"))["time"]]
+            self.assertEqual(len(told), len(times))
+            for a, b in zip(told, times):
+                self.assertAlmostEqual(a, b, delta=1e-12)
+        said = self.call("measure", xyz("far.xyz", [0, 1e-300, 1]), "--diameter", 1, "-o", self.new(), status=2).stderr
+        self.assertIn("that can be counted", said)
 
     def test_what_is_wrong_is_one_line(self):
         def line(*words):

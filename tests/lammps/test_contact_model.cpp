@@ -119,12 +119,14 @@ TEST_CASE("The older styles are taken where all pairs have the same coefficients
   REQUIRE(all);
   CHECK(all->style == "hooke");
   CHECK(all->arguments == "10000 10000 30 15 0.4 1");
+  CHECK(lammps::classic_model_of_all(contact)->arguments == all->arguments);
   contact.attraction = false;
   CHECK_THAT(lammps::classic_model(contact, {mean})->arguments, Contains(" limit_damping"));
   // a restitution goes with the root of the mass: one pair alone is exact, several are not
   contact.normal = laws::SpringDashpot::from_restitution(1e4, 0.6);
   CHECK_FALSE(lammps::classic_model(contact, {mean, with_bed}));
   CHECK(lammps::classic_model(contact, {odd, odd}));
+  CHECK_FALSE(lammps::classic_model_of_all(contact));
   laws::CundallStrack spring;
   spring.stiffness = {8e3, 0, 0, 0}, spring.spring.friction = 0.5;
   contact.shear = spring;

@@ -201,6 +201,54 @@ class Lammps(unittest.TestCase):
         self.assertEqual(table(self.path("back", "profiles.csv")), table(self.path("measured", "profiles.csv")))
 
     @unittest.skipUnless(THERE, "lmp")
+    def test_an_import_is_as_long_as_its_dumps(self):
+        """What LAMMPS has written so far, without a last dump that is cut short."""
+        self.write("flow.toml", FLOW)
+        self.call("export", "flow.toml", "--lammps", "deck", "--quiet")
+        subprocess.run(["lmp", "-in", "in.lammps", "-log", "none", "-screen", "none"], cwd=self.path("deck"), check=True)
+        dumps = sorted(os.listdir(self.path("deck", "dumps")))
+        for name in dumps[8:]:
+            os.remove(self.path("deck", "dumps", name))
+        with open(self.path("deck", "dumps", dumps[7]), "r+", encoding="utf-8") as file:
+            file.truncate(3000)
+        said = self.call("import", "deck", "--quiet").stderr
+        self.assertIn("no whole frame of a dump: cut short: left out", said)
+        self.assertEqual(len(os.listdir(self.path("deck", "run", "frames"))), 7)
+        # the folder of dumps is one that render and measure take
+        os.remove(self.path("deck", "dumps", dumps[7]))
+        self.call("measure", "deck/dumps", "-o", "measured", "--bed", 61, "--only", "moments", "--quiet")
+        self.assertEqual(len(table(self.path("measured", "moments.csv"))["time"]), 7)
+        os.remove(self.path("deck", "dumps", dumps[3]))
+        said = self.call("import", "deck", "-o", "other", status=2).stderr
+        self.assertIn("the dump of step", said)
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_lammps_reads_what_convert_wrote(self):
+        for scene in (FLOW, BOX):
+            shutil.rmtree(self.path("deck"), ignore_errors=True)
+            shutil.rmtree(self.path("dumps"), ignore_errors=True)
+            self.write("flow.toml", scene)
+            self.call("run", "flow.toml", "-o", "run", "--force", "--quiet")
+            self.call("export", "flow.toml", "--lammps", "deck", "--quiet")
+            self.call("convert", "run", "--to", "lammps-dump", "--from-one", "-o", "dumps", "--quiet")
+            with open(self.path("deck", "in.lammps"), encoding="utf-8") as file:
+                begin = file.read().split("shell mkdir")[0]
+            shutil.copy(self.path("dumps", "000007.dump"), self.path("deck"))
+            places = "x y vx vy" if scene is FLOW else "x y z vx vy vz"
+            self.write("deck/in.read", begin + "read_dump 000007.dump 7 " + places + " box yes replace yes\n"
+                       "write_dump all custom read.dump id x y z vx vy vz modify sort id format float %.17g\n")
+            subprocess.run(["lmp", "-in", "in.read", "-log", "none", "-screen", "none"], cwd=self.path("deck"), check=True)
+            with open(self.path("deck", "read.dump"), encoding="utf-8") as file:
+                rows = [[float(word) for word in line.split()] for line in file.read().split("vz")[1].splitlines() if line.strip()]
+            self.call("convert", "run", "--to", "csv", "-o", "csv%d" % len(scene), "--quiet")
+            own = table(self.path("csv%d" % len(scene), "000007.csv"))
+            self.assertEqual(len(rows), len(own["x"]))
+            for k, row in enumerate(rows):
+                for name, value in zip(("x", "y", "z", "velocity_x", "velocity_y", "velocity_z"), row[1:]):
+                    # LAMMPS scales places to its box and back
+                    self.assertAlmostEqual(float(own[name][k]), value, delta=1e-12, msg=(k, name))
+
+    @unittest.skipUnless(THERE, "lmp")
     def test_walls_and_many_sizes(self):
         self.write("box.toml", BOX)
         self.run_both("box.toml")
@@ -208,12 +256,34 @@ class Lammps(unittest.TestCase):
         self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
         counts = [self.call("info", run + "/contacts/000002.vtp").stdout.split("\n")[1] for run in ("soft", "lammps")]
         self.assertEqual(counts[0], counts[1])
+        self.run_both("box.toml", "contact.attraction=false")
+        soft, other = self.after("soft", 10), self.after("lammps", 10)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
         # more sizes than types: one restitution for all by `damping tsuji`
         self.write("flow.toml", FLOW)
+        self.run_both("flow.toml", "grains.rotation=false")
+        soft, other = self.after("soft", 10), self.after("lammps", 10)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
         self.run_both("flow.toml", "grains.count=450", "bed.count=150", "run.duration=0.1", 'contact.tangential={law="frictionless"}',
                       'contact.normal={law="spring-dashpot",stiffness=1e4,restitution=0.6}')
         soft, other = self.after("soft", 1), self.after("lammps", 1)
         self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-10)
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_walls_that_move(self):
+        """One that pushes steadily is the same to the last digits, one that shakes as the step shrinks."""
+        scene = TWO.replace("gravity = 0", "gravity = 1").replace('kind = "none"', 'kind = "none"\n[[wall]]\npoint = [0, 1.4]\nnormal = [0, 1]\nMOTION')
+        grains(self.path("two.vtk"), OBLIQUE)
+        apart = {}
+        for name, motion, steps in (("steady", "velocity = [0.3, 0.5]", 50), ("shakes", "oscillation = { amplitude = 0.1, frequency = 2 }", 50),
+                                    ("shakes", "oscillation = { amplitude = 0.1, frequency = 2 }", 800)):
+            self.write("two.toml", scene.replace("MOTION", motion))
+            self.run_both("two.toml", "engine.steps_per_contact=%d" % steps, "run.duration=0.5")
+            soft, other = self.after("soft", 5), self.after("lammps", 5)
+            apart[name, steps] = max(abs(a - b) for a, b in zip(soft, other))
+        self.assertLess(apart["steady", 50], 1e-12)
+        self.assertLess(apart["shakes", 50], 0.01)
+        self.assertLess(apart["shakes", 800], apart["shakes", 50] / 10)
 
     @unittest.skipUnless(THERE, "lmp")
     def test_it_goes_on_where_it_stopped(self):
@@ -246,6 +316,9 @@ class Lammps(unittest.TestCase):
         self.assertIn("--ranks", line("run", "flow.toml", "--ranks", 2))
         self.assertIn("has LAMMPS run there", line("import", self.exported()))
         self.assertFalse(os.path.exists(self.path("deck")))
+        self.write("impacts.toml", FLOW + "impacts = { from = 0 }\n")
+        said = self.call("export", "impacts.toml", "--lammps", "impacts", "--quiet").stderr
+        self.assertEqual(said, "export: output.impacts is left out: LAMMPS tells of no impacts\n")
         said = line("run", "flow.toml", "--set", "engine.method=lammps", "-o", "run", path=self.folder)
         self.assertIn('"lammps" needs the program lmp, Debian\'s package lammps: apt-get install lammps', said)
         self.assertFalse(os.path.exists(self.path("run")))

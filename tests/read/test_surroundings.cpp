@@ -2,6 +2,7 @@
 #include <set>
 
 #include "common/error.hpp"
+#include "read/contact_rows.hpp"
 #include "read/grain_frame.hpp"
 #include "read/network.hpp"
 #include "read/run_frames.hpp"
@@ -61,6 +62,48 @@ TEST_CASE("Chains are as strong as normal forces, where a file has forces of bot
   content.cells["normal_force"] = {-4, 1};
   vtk_files::write(content, folder / "b.vtp");
   CHECK(read::read_network(folder / "b.vtp")[0].force == 4);
+}
+
+TEST_CASE("Contacts are read with all that a run tells of them, and nonsense is refused") {
+  Folder folder;
+  vtk_files::Content content;
+  content.points = {0, 0, 0, 1, 0, 0, 1, 0, 0, 1, -1, 0};
+  content.lines = {0, 1, 2, 3};
+  content.cells = {{"a", {0, 1}},
+                   {"b", {1, -1}},
+                   {"overlap", {0.1, 0.2}},
+                   {"normal_force", {5, 6}},
+                   {"shear_force", {-1, 2}},
+                   {"state", {1, 2}},
+                   {"point", {0.5, 0, 0, 1, -1, 0}},
+                   {"normal", {1, 0, 0, 0, -1, 0}},
+                   {"branch", {1, 0, 0, 0, -1, 0}},
+                   {"force", {5, -1, 0, 2, -6, 0}}};
+  const auto write = [&] { vtk_files::write(content, folder / "c.vtp"); };
+  write();
+  const auto rows = read::read_contact_rows(folder / "c.vtp");
+  REQUIRE(rows.size() == 2);
+  CHECK((rows[0].a == 0 && rows[0].b == 1 && rows[1].a == 1 && rows[1].b == -1));
+  CHECK(rows[1].force == std::array<double, 3>{2, -6, 0});
+  CHECK(rows[0].branch == std::array<double, 3>{1, 0, 0});
+  CHECK((rows[1].overlap == 0.2 && rows[1].normal_force == 6 && rows[0].shear_force == -1 &&
+         rows[1].state == 2));
+  const auto refused = [&](const char* array, std::vector<double> values) {
+    auto whole = content.cells[array];
+    content.cells[array] = std::move(values);
+    write();
+    const auto said = test::complaint([&] { read::read_contact_rows(folder / "c.vtp"); });
+    content.cells[array] = std::move(whole);
+    return said;
+  };
+  CHECK_THAT(refused("a", {-1, 0}), Contains("contact 0: a is no grain"));
+  CHECK_THAT(refused("b", {1, 1e300}), Contains("contact 1: b is no whole number"));
+  CHECK_THAT(refused("branch", {NAN, 0, 0, 0, 1, 0}),
+             Contains("contact 0: place, normal, branch or overlap"));
+  content.cells.erase("branch");
+  write();
+  CHECK_THAT(test::complaint([&] { read::read_contact_rows(folder / "c.vtp"); }),
+             Contains("no cell array \"branch\""));
 }
 
 TEST_CASE("Only wanted arrays are unpacked, under any of their names; all are named") {

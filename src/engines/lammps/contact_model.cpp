@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "common/root.hpp"
@@ -75,6 +76,9 @@ std::string joined(const std::string& normal, const std::string& shear, bool att
   return fmt::format("{} {}{}", normal, shear, attraction ? "" : " limit_damping");
 }
 
+/// Pairs by which it is seen how coefficients scale: one, one four times as heavy, one four times as large.
+const std::array<laws::Pair, 3> alike{laws::Pair(1, 1), laws::Pair(4, 1), laws::Pair(1, 4)};
+
 /// The e for which LAMMPS's `damping tsuji` has this ratio γ_n/√(m k_n): its α(e), a polynomial that falls from 1.2728 at
 /// 0 to 0 at 1.
 double tsuji_restitution(double ratio) {
@@ -86,8 +90,84 @@ double tsuji_restitution(double ratio) {
 }
 
 constexpr const char* many_sizes =
-    "does not scale with the grains' masses and radii as LAMMPS's coefficients do, and there are too many sizes to give each "
-    "its own; ";
+    "does not scale with the grains' masses and radii as LAMMPS's coefficients do, and there are too many sizes to give "
+    "each its own; ";
+
+/// A coefficient of pairs of unlike masses and radii, from which is seen how it scales with them.
+struct Scaling {
+  double one, heavy, large;
+
+  template <class Coefficient>
+  explicit Scaling(const Coefficient& of) : one(of(alike[0])), heavy(of(alike[1])), large(of(alike[2])) {}
+  bool grows(double with_mass, double with_radius) const {
+    return same(heavy, with_mass * one) && same(large, with_radius * one);
+  }
+  bool is_constant() const { return grows(1, 1); }
+  bool is_per_mass() const { return grows(4, 1); }
+  bool is_per_root_mass() const { return grows(2, 1); }
+  bool is_per_root_radius() const { return grows(1, 2); }
+
+ private:
+  static bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); }
+};
+
+/// The normal part for all pairs; its damping is told where it is a constant, or a multiple of m_eff.
+struct NormalForAll {
+  std::string text;
+  double constant = 0, per_mass = 0;
+  std::optional<Refusal> wrong{};
+};
+
+NormalForAll normal_for_all(const laws::Normal& normal) {
+  const auto of = [&](auto&& coefficient) {
+    return Scaling([&](laws::Pair p) {
+      return std::visit([&](const auto& law) { return coefficient(law, p); }, normal);
+    });
+  };
+  const auto stiffness = of([](const auto&law, laws::Pair p) { return law.stiffness(p); }),
+             damping = of([](const auto&law, laws::Pair p) { return law.damping(p); });
+  const auto refuse = [](const char* key, const std::string& what, const char* remedy) {
+    return NormalForAll{"", 0, 0, Refusal{key, what + many_sizes + remedy}};
+  };
+  const bool hertz = !std::holds_alternative<laws::SpringDashpot>(normal);
+  if (!(hertz ? stiffness.is_per_root_radius() : stiffness.is_constant()))
+    return refuse("contact.normal", "its stiffness ", "give one material (young, poisson), or equal grains");
+  if (std::holds_alternative<laws::HertzKuwabaraKono>(normal))
+    return refuse("contact.normal.law", "\"hertz-kuwabara-kono\" ", "give equal grains");
+  const auto spring = fmt::format("{} {}", hertz ? "hertz" : "hooke", stiffness.one);
+  if (damping.one == 0) return {spring + " 0 damping velocity"};
+  if (damping.is_constant()) return {fmt::format("{} {} damping velocity", spring, damping.one), damping.one};
+  if (damping.is_per_mass())
+    return {fmt::format("{} {} damping mass_velocity", spring, damping.one), 0, damping.one};
+  constexpr double least = 1e-3, most = 1.27;  // of what `damping tsuji` can have
+  const double ratio = damping.one / std::sqrt(stiffness.one);
+  if (hertz || !damping.is_per_root_mass() || !(ratio > least && ratio < most))
+    return refuse("contact.normal.restitution", "", "give equal grains");
+  return {fmt::format("{} {} damping tsuji", spring, tsuji_restitution(ratio))};
+}
+
+ContactModel shear_for_all(const laws::Shear& shear, const NormalForAll& normal) {
+  const auto refuse = [](const char* key, const std::string& what, const char* remedy) {
+    return refused(key, what + many_sizes + remedy);
+  };
+  if (const auto* law = std::get_if<laws::RegularisedCoulomb>(&shear)) {
+    const Scaling gamma([&](laws::Pair p) { return law->effective_viscosity(p); });
+    const double along = gamma.is_constant() ? normal.constant : gamma.is_per_mass() ? normal.per_mass : 0;
+    if (along == 0)
+      return refuse(
+          "contact.tangential.law",
+          "\"coulomb-viscous\": LAMMPS's damping across a contact is a multiple of the one along it; this one ",
+          "give damping and viscosity the same mass_scaling, cundall-strack, or equal grains");
+    return {fmt::format("tangential linear_nohistory {} {}", gamma.one / along, law->friction), {}};
+  }
+  bool scales = true;
+  if (const auto* spring = std::get_if<laws::CundallStrack>(&shear))
+    scales = Scaling([&](laws::Pair p) { return spring->stiffness(p); }).is_constant();
+  if (const auto* spring = std::get_if<laws::MindlinSpring>(&shear))
+    scales = Scaling([&](laws::Pair p) { return spring->stiffness(p); }).is_per_root_radius();
+  if (!scales) return refuse("contact.tangential", "its stiffness ", "give equal grains");
+  return shear_of(shear, {}, alike[0]);
+}
 
 /// The coefficients of an older style for one pair: along and across, springs and dampings over m_eff.
 struct Classic {
@@ -155,69 +235,16 @@ ContactModel model_of(const laws::ContactLaws& laws, laws::Pair pair) {
 }
 
 ContactModel model_of_all(const laws::ContactLaws& laws) {
-  // How a coefficient scales is seen from pairs of unlike masses and radii.
-  const laws::Pair one(1, 1), heavy(4, 1), large(1, 4);
-  const auto model = model_of(laws, one);
-  if (model.wrong) return model;
-  const double infinite =
-      std::visit([](const auto& law) { return law.stiffness(laws::Pair(1, 1)); }, laws.normal);
-  const auto stiffness = [&](laws::Pair p) {
-    return std::visit([&](const auto& law) { return law.stiffness(p); }, laws.normal);
-  };
-  const auto damping = [&](laws::Pair p) {
-    return std::visit([&](const auto& law) { return law.damping(p); }, laws.normal);
-  };
-  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
-  const bool hertz = !std::holds_alternative<laws::SpringDashpot>(laws.normal);
-  if (!same(stiffness(heavy), infinite) || !same(stiffness(large), hertz ? 2 * infinite : infinite))
-    return refused(
-        "contact.normal",
-        fmt::format("its stiffness {}give one material (young, poisson), or equal grains", many_sizes));
-  std::string normal;
-  double constant = 0, per_mass = 0;
-  if (std::holds_alternative<laws::HertzKuwabaraKono>(laws.normal)) {
-    return refused("contact.normal.law",
-                   fmt::format("\"hertz-kuwabara-kono\" {}give equal grains", many_sizes));
-  } else if (damping(one) == 0) {
-    normal = fmt::format("{} {} 0 damping velocity", hertz ? "hertz" : "hooke", infinite);
-  } else if (same(damping(heavy), damping(one))) {
-    constant = damping(one);
-    normal = fmt::format("{} {} {} damping velocity", hertz ? "hertz" : "hooke", infinite, constant);
-  } else if (same(damping(heavy), 4 * damping(one))) {
-    per_mass = damping(one);
-    normal = fmt::format("{} {} {} damping mass_velocity", hertz ? "hertz" : "hooke", infinite, per_mass);
-  } else {
-    const double ratio = damping(one) / std::sqrt(infinite);
-    constexpr double least = 1e-3, most = 1.27;  // of what `damping tsuji` can have
-    if (hertz || !(ratio > least && ratio < most))
-      return refused("contact.normal.restitution", fmt::format("{}give equal grains", many_sizes));
-    normal = fmt::format("hooke {} {} damping tsuji", infinite, tsuji_restitution(ratio));
-  }
-  std::string shear = "tangential linear_nohistory 0 0";
-  if (const auto* law = std::get_if<laws::RegularisedCoulomb>(&laws.shear)) {
-    const double gamma = law->effective_viscosity(one), heavier = law->effective_viscosity(heavy);
-    const bool as_normal =
-        (constant > 0 && same(gamma, heavier)) || (per_mass > 0 && same(4 * gamma, heavier));
-    if (!as_normal)
-      return refused(
-          "contact.tangential.law",
-          fmt::format(
-              "\"coulomb-viscous\": LAMMPS's damping across a contact is a multiple of the one along it; "
-              "this one {}give damping and viscosity the same mass_scaling, cundall-strack, or equal grains",
-              many_sizes));
-    shear = fmt::format("tangential linear_nohistory {} {}", gamma / damping(one), law->friction);
-  } else if (const auto* spring = std::get_if<laws::CundallStrack>(&laws.shear)) {
-    if (!same(spring->stiffness(heavy), spring->stiffness(one)) ||
-        !same(spring->stiffness(large), spring->stiffness(one)))
-      return refused("contact.tangential", fmt::format("its stiffness {}give equal grains", many_sizes));
-    shear = shear_of(laws.shear, {}, one).text;
-  } else if (const auto* mindlin = std::get_if<laws::MindlinSpring>(&laws.shear)) {
-    if (!same(mindlin->stiffness(heavy), mindlin->stiffness(one)) ||
-        !same(mindlin->stiffness(large), 2 * mindlin->stiffness(one)))
-      return refused("contact.tangential", fmt::format("its stiffness {}give equal grains", many_sizes));
-    shear = shear_of(laws.shear, {}, one).text;
-  }
-  return {joined(normal, shear, laws.attraction), {}};
+  if (auto model = model_of(laws, alike[0]); model.wrong) return model;
+  const auto normal = normal_for_all(laws.normal);
+  if (normal.wrong) return {"", normal.wrong};
+  const auto shear = shear_for_all(laws.shear, normal);
+  if (shear.wrong) return shear;
+  return {joined(normal.text, shear.text, laws.attraction), {}};
+}
+
+std::optional<ClassicModel> classic_model_of_all(const laws::ContactLaws& laws) {
+  return classic_model(laws, {alike.begin(), alike.end()});
 }
 
 }  // namespace chute::lammps

@@ -45,6 +45,9 @@ struct ClassicModel {
 std::optional<ClassicModel> classic_model(const laws::ContactLaws& laws,
                                           const std::vector<laws::Pair>& pairs);
 
+/// The same for pairs of any masses and radii.
+std::optional<ClassicModel> classic_model_of_all(const laws::ContactLaws& laws);
+
 /// For pairs that all have these masses and radii. Every coefficient is exact.
 ContactModel model_of(const laws::ContactLaws& laws, laws::Pair pair);
 

@@ -115,7 +115,7 @@ class DeckMaker {
 
   std::string contacts() {
     std::string text;
-    if (const auto classic = apart_ ? classic_model(laws_, pairs_that_meet()) : std::nullopt) {
+    if (const auto classic = apart_ ? classic_model(laws_, pairs_that_meet()) : classic_model_of_all(laws_)) {
       text = fmt::format("pair_style gran/{} {}\npair_coeff * *\n", classic->style, classic->arguments);
     } else if (!apart_) {
       text = fmt::format("pair_style granular\npair_coeff * * {}\n", accept(model_of_all(laws_)));
@@ -156,38 +156,63 @@ class DeckMaker {
     return text;
   }
 
-  /// A plane as LAMMPS says it: along an axis, or as the border of a region.
-  std::string wall(std::size_t w, const laws::ContactLaws& laws) {
+  /// How far a wall has moved along an axis, as a formula of LAMMPS's; nothing where it never does.
+  std::string shift(const Wall<D>& wall, int axis) const {
+    const double v = wall.motion.velocity[axis], amplitude = wall.motion.amplitude * wall.normal[axis];
+    std::string formula;
+    if (v != 0) formula = fmt::format("{}*step*{}", v, dt_);
+    if (amplitude != 0 && wall.oscillates())
+      formula +=
+          fmt::format("{}{}*sin({}*step*{})", formula.empty() ? "" : "+", amplitude, wall.motion.rate(), dt_);
+    return formula;
+  }
+
+  /// Where a plane is: along an axis, or as the border of a region, which can move.
+  struct Border {
+    std::string commands, style, where;
+  };
+  Border border(std::size_t w) const {
     const auto& wall = world_.walls[w];
-    std::string where, style = "wall/gran";
-    for (int k = 0; k < D; ++k)
-      if (std::abs(wall.normal[k]) == 1)
-        where = fmt::format("{}plane {}", "xyz"[k],
-                            wall.normal[k] > 0 ? fmt::format("{} NULL", wall.point[k])
-                                               : fmt::format("NULL {}", wall.point[k]));
-    std::string text;
-    if (where.empty()) {
-      style = "wall/gran/region";
-      where = fmt::format("region wall{}", w);
-      text = fmt::format("region wall{} plane {} {} {} {} {} {} side in\n", w, wall.point[0], wall.point[1],
-                         D == 3 ? wall.point[D - 1] : 0.0, wall.normal[0], wall.normal[1],
-                         D == 3 ? wall.normal[D - 1] : 0.0);
+    if (!wall.moves())
+      for (int k = 0; k < D; ++k)
+        if (std::abs(wall.normal[k]) == 1)
+          return {"", "wall/gran",
+                  fmt::format("{}plane {}", "xyz"[k],
+                              wall.normal[k] > 0 ? fmt::format("{} NULL", wall.point[k])
+                                                 : fmt::format("NULL {}", wall.point[k]))};
+    std::string variables, moves;
+    for (int k = 0; k < 3; ++k) {
+      const auto formula = k < D ? shift(wall, k) : std::string();
+      const auto name = fmt::format("wall{}{}", w, "xyz"[k]);
+      if (!formula.empty()) variables += fmt::format("variable {} equal {}\n", name, formula);
+      moves += formula.empty() ? " NULL" : " v_" + name;
     }
+    const auto region =
+        fmt::format("region wall{} plane {} {} {} {} {} {} side in{}\n", w, wall.point[0], wall.point[1],
+                    D == 3 ? wall.point[D - 1] : 0.0, wall.normal[0], wall.normal[1],
+                    D == 3 ? wall.normal[D - 1] : 0.0, variables.empty() ? "" : " move" + moves);
+    return {variables + region, "wall/gran/region", fmt::format("region wall{}", w)};
+  }
+
+  std::string wall(std::size_t w, const laws::ContactLaws& laws) {
+    auto [text, style, where] = border(w);
     const auto add = [&](const std::string& group, const std::string& model) {
       const auto name = fmt::format("wall{}_{}", w, deck_.wall_fixes[w].size());
       text += fmt::format("fix {} {} {} {} {} contacts\n", name, group, style, model, where);
       deck_.wall_fixes[w].push_back(name);
     };
+    const auto text_for = [&](const std::optional<ClassicModel>& classic, const auto& model) {
+      return classic ? classic->style + " " + classic->arguments : "granular " + accept(model());
+    };
     if (!apart_ || moving_kinds() > most_wall_kinds) {
-      add("grains", "granular " + accept(model_of_all(laws)));
+      add("grains", text_for(classic_model_of_all(laws), [&] { return model_of_all(laws); }));
       return text;
     }
     for (std::size_t k = 0; k < moving_kinds() && !wrong_; ++k) {
       if (w == 0) text += fmt::format("group kind{} type {}\n", k + 1, k + 1);
       const laws::Pair pair(kinds_[k].mass, kinds_[k].radius);
-      const auto classic = classic_model(laws, {pair});
       add(fmt::format("kind{}", k + 1),
-          classic ? classic->style + " " + classic->arguments : "granular " + accept(model_of(laws, pair)));
+          text_for(classic_model(laws, {pair}), [&] { return model_of(laws, pair); }));
     }
     return text;
   }
@@ -263,11 +288,11 @@ std::string input_script(const Deck& deck, std::int64_t steps, std::int64_t ever
   constexpr int digits = 12;  // of a step in a file's name
   std::string text = "# written by chute export; run it with: mpirun -n RANKS lmp -in in.lammps\n" +
                      deck.begin + "read_data grains.data\n" + deck.model + contact_computes();
-  text += fmt::format("shell mkdir dumps\ndump grains all custom {} dumps/grains.* {}{}\n", every,
+  text += fmt::format("shell mkdir dumps contacts\ndump grains all custom {} dumps/grains.* {}{}\n", every,
                       dump_columns(), wall_columns(deck));
   text += fmt::format("dump_modify grains sort id format float %.17g pad {}\n", digits);
   text += fmt::format(
-      "dump contacts all local {} dumps/contacts.* {}\ndump_modify contacts format float %.17g pad {}\n",
+      "dump contacts all local {} contacts/contacts.* {}\ndump_modify contacts format float %.17g pad {}\n",
       every, contact_columns(), digits);
   text += fmt::format("thermo {}\nthermo_modify lost error\n", std::max<std::int64_t>(1, steps / 100));
   text += fmt::format("restart {} grains.restart.1 grains.restart.2\n",

@@ -37,7 +37,7 @@ DeckOrRefusal<D> make_deck(const World<D>& world, const engines::Setting& settin
 /// What of the contact laws and walls LAMMPS does not have, whatever the grains.
 std::optional<Refusal> refusal_of_laws(const engines::Setting& setting);
 
-/// The whole input of LAMMPS for a run of so many steps, with dumps every so many: dumps/grains.STEP and dumps/contacts.STEP.
+/// The whole input of LAMMPS for a run of so many steps, with dumps every so many: dumps/grains.STEP and contacts/contacts.STEP.
 std::string input_script(const Deck& deck, std::int64_t steps, std::int64_t every);
 
 /// Names of the columns that a dump must have, in this order, for DumpFrame to read it.

@@ -93,10 +93,10 @@ void LammpsEngine<D>::advance(std::int64_t step) {
 }
 
 template <int D>
-fs::path LammpsEngine<D>::frame_file(const char* stem) const {
+std::string LammpsEngine<D>::frame_file(const char* stem) const {
   // Who looks between two dumps sees the one before: importing lets nobody.
   const auto at = std::ranges::upper_bound(steps_, step_);
-  return setup_.dumps / fmt::format("{}.{:012}", stem, *std::prev(at));
+  return fmt::format("{}.{:012}", stem, *std::prev(at));
 }
 
 template <int D>
@@ -111,8 +111,9 @@ void LammpsEngine<D>::know() const {
     take_grains(process_->folder() / "grains.frame");
     take_contacts(process_->folder() / "contacts.frame");
   } else {
-    take_grains(frame_file("grains"));
-    const auto contacts = frame_file("contacts");
+    take_grains(setup_.dumps / frame_file("grains"));
+    // beside, for a folder of frames holds nothing else
+    const auto contacts = setup_.dumps.parent_path() / "contacts" / frame_file("contacts");
     if (fs::exists(contacts)) take_contacts(contacts);
   }
   known_ = step_;
@@ -150,7 +151,7 @@ void LammpsEngine<D>::take_grains(const fs::path& file) const {
         if (frame.at(row, at) == 0) continue;
         Contact contact;
         contact.a = static_cast<std::int64_t>(i), contact.b = wall_id(w);
-        const auto touch = around_.walls[w].nearest(grains_.place(i), 0, around_.domain);
+        const auto touch = around_.walls[w].nearest(grains_.place(i), time(), around_.domain);
         const Vec<D> n = -1.0 * touch.normal;
         Vec<D> force;
         for (int k = 0; k < D; ++k) force[k] = -frame.at(row, at + 1 + static_cast<std::size_t>(k));
@@ -216,6 +217,8 @@ EnergyAccount LammpsEngine<D>::energy() const {
   EnergyAccount account;
   account.add_motion<D>(grains(), around_.gravity, start_);
   account.elastic = account.normal_loss = account.shear_loss = account.start = unknown;
+  if (std::ranges::any_of(around_.walls, [](const auto& wall) { return wall.moves(); }))
+    account.wall_work = unknown;
   return account;
 }
 

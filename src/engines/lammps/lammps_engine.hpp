@@ -56,7 +56,7 @@ class LammpsEngine final : public Engine {
   void know() const;
   void take_grains(const std::filesystem::path& file) const;
   void take_contacts(const std::filesystem::path& file) const;
-  std::filesystem::path frame_file(const char* stem) const;
+  std::string frame_file(const char* stem) const;
 };
 
 }  // namespace chute::lammps

@@ -21,7 +21,9 @@ std::unique_ptr<Engine> made(World<D> world, const LammpsMethod& method, const e
 
 }  // namespace
 
-Offers LammpsMethod::offers() const { return {.contacts = true, .walls = true, .wall_surfaces = true}; }
+Offers LammpsMethod::offers() const {
+  return {.contacts = true, .walls = true, .wall_motion = true, .wall_surfaces = true};
+}
 
 std::optional<Refusal> LammpsMethod::refusal(const engines::Setting& s) const { return refusal_of_laws(s); }
 
