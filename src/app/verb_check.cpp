@@ -2,6 +2,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "app/input.hpp"
@@ -12,6 +13,7 @@
 #include "common/toml_reader.hpp"
 #include "experiments/experiment.hpp"
 #include "run/facts.hpp"
+#include "run/machine.hpp"
 #include "run/session.hpp"
 #include "sweep/sweep_file.hpp"
 
@@ -25,7 +27,7 @@ struct Checked {
   std::vector<std::string> warnings, chosen{};
 };
 
-Checked check(const std::string& file, const std::vector<std::string>& settings) {
+Checked check(const std::string& file, const std::vector<std::string>& settings, bool beyond_machine) {
   const auto input = read_input(file);
   Checked found{input.name, {}, {}, {}};
   const sweep::Base base{input.name, settings, input.text};
@@ -38,7 +40,8 @@ Checked check(const std::string& file, const std::vector<std::string>& settings)
     double cost = 0;
     for (const auto& place : places) {
       const auto scene = base.scene(place.set);
-      run::Session(scene, 1);
+      if (!beyond_machine) run::refuse_beyond_machine(scene, input.name, {});
+      if (run::beyond_machine(scene, {}).empty()) run::Session(scene, 1);
       cost += run::cost_of(scene);
     }
     sweep::Base kept = base;
@@ -58,7 +61,10 @@ Checked check(const std::string& file, const std::vector<std::string>& settings)
     }
   } else {
     const auto scene = scene::parse_scene(input.text, input.name, settings);
-    const run::Session refuses_what_a_run_would(scene, 1);
+    // what it says first is what a run would say first; the session takes the memory that is estimated here
+    if (!beyond_machine) run::refuse_beyond_machine(scene, input.name, {});
+    std::optional<run::Session> refuses_what_a_run_would;
+    if (run::beyond_machine(scene, {}).empty()) refuses_what_a_run_would.emplace(scene, 1);
     found.resolved = to_toml(scene), found.facts = run::facts(scene), found.warnings = run::warnings(scene);
     found.chosen = scene.chosen;
   }
@@ -105,13 +111,15 @@ void add_check(CLI::App& app) {
   auto* verb = app.add_subcommand("check", "Validate scenes; print each complete, with what follows from it");
   struct Arguments {
     std::vector<std::string> scenes, settings;
-    bool keys = false, json = false;
+    bool keys = false, json = false, beyond_machine = false;
   };
   auto a = std::make_shared<Arguments>();
   verb->add_option("scenes", a->scenes, "scene files (TOML); -: standard input");
   verb->add_flag("--keys", a->keys, "print every key that a scene can have, with what it means");
   verb->add_flag("--json", a->json, "for programs: keys as in README.md");
   add_settings(*verb, "--set", "KEY=VALUE", a->settings, "change a key: grains.count=100");
+  verb->add_flag("--beyond-machine", a->beyond_machine,
+                 "of a run for another machine: not refused for the memory and the disk of this one");
   verb->footer("Example: chute check scenes/chute-2d.toml");
   verb->callback([a] {
     if (a->keys) fmt::print("{}", scene::keys_table());
@@ -119,7 +127,7 @@ void add_check(CLI::App& app) {
       throw InputError("check: name a scene file, or --keys for what can stand in one");
     auto all = nlohmann::ordered_json::array();
     for (const auto& file : a->scenes) {
-      const auto found = check(file, a->settings);
+      const auto found = check(file, a->settings, a->beyond_machine);
       if (a->json)
         all.push_back(as_json(found));
       else

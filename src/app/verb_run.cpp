@@ -13,6 +13,7 @@
 #include "experiments/perform.hpp"
 #include "run/facts.hpp"
 #include "run/growth.hpp"
+#include "run/machine.hpp"
 #include "run/run.hpp"
 
 namespace chute::app {
@@ -25,7 +26,7 @@ struct RunArguments {
   std::vector<std::string> settings;
   int threads = 1, ranks = 1;
   double checkpoint_minutes = 5;
-  bool resume = false, force = false, quiet = false;
+  bool resume = false, force = false, quiet = false, beyond_machine = false;
 };
 
 /// An experiment takes seconds at most: there is nothing to show or to resume, but the results to print.
@@ -66,6 +67,7 @@ void run(const RunArguments& arguments) {
     throw InputError(
         fmt::format("--ranks: for engine.method = \"lammps\"; \"{}\" takes --threads", scene.engine.word()));
   if (of_lammps) options.threads = arguments.ranks;
+  if (!arguments.beyond_machine) run::refuse_beyond_machine(scene, input.name, options.directory);
   // A run that goes on was told both when it began.
   if (!arguments.quiet && !arguments.resume) {
     for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);
@@ -121,6 +123,8 @@ void add_run(CLI::App& app) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_flag("--force", a->force, "replace a run that is already there");
+  verb->add_flag("--beyond-machine", a->beyond_machine,
+                 "begin, though memory or disk will hardly do by the estimate of `chute check`");
   verb->add_flag("--quiet", a->quiet, "no progress line");
   std::string methods = "Methods (engine.method); their keys: chute check --keys\n";
   for (const auto& kind : engines::list()) methods += fmt::format("  {:<15} {}\n", kind.word, kind.text);

@@ -9,7 +9,9 @@
 #include "app/settings.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
+#include "run/machine.hpp"
 #include "sweep/sweep.hpp"
+#include "sweep/sweep_file.hpp"
 
 namespace chute::app {
 namespace {
@@ -20,7 +22,7 @@ struct SweepArguments {
   std::string scene, directory, shard;
   std::vector<std::string> settings, more;
   int jobs = 1;
-  bool resume = false, keep_runs = false, quiet = false;
+  bool resume = false, keep_runs = false, quiet = false, beyond_machine = false;
 };
 
 /// "3/8" as shard 3 of 8.
@@ -32,6 +34,13 @@ void read_shard(const std::string& text, sweep::SweepOptions& options) {
   if (!slash || second.ec != std::errc{} || second.ptr != end || options.shard < 1 ||
       options.shard > options.shards)
     throw InputError(fmt::format("--shard {}: expected I/N with 1 <= I <= N, such as 3/8", text));
+}
+
+/// The first place and the last have the least and the most of whatever grows along an axis.
+void refuse_beyond_machine(const sweep::Base& base, const std::string& name, const fs::path& directory) {
+  const auto places = sweep::grid(sweep::read_sweep(base).axes);
+  for (const auto* place : {&places.front(), &places.back()})
+    run::refuse_beyond_machine(base.scene(place->set), name, directory);
 }
 
 void run(const SweepArguments& arguments) {
@@ -49,6 +58,7 @@ void run(const SweepArguments& arguments) {
   options.keep_runs = arguments.keep_runs || (arguments.resume && fs::exists(options.directory / "runs"));
   options.command_line = command_line();
   if (!arguments.shard.empty()) read_shard(arguments.shard, options);
+  if (!arguments.beyond_machine) refuse_beyond_machine(base, arguments.scene, options.directory);
   Progress progress("sweep", arguments.quiet);
   watch_for_interrupt();
   options.progress = [&](double part) {
@@ -88,6 +98,8 @@ void add_sweep(CLI::App& app) {
   verb->add_flag("--resume", a->resume,
                  "go on with an interrupted sweep, or with one whose [sweep] has grown: what is done stays");
   verb->add_flag("--keep-runs", a->keep_runs, "keep every run in runs/, with all outputs of the scene");
+  verb->add_flag("--beyond-machine", a->beyond_machine,
+                 "begin, though memory or disk will hardly do for one of its runs");
   verb->add_flag("--quiet", a->quiet, "no progress line");
   verb->footer(
       "Example: chute sweep scenes/sweep-ball.toml -o out/sweep --jobs 2\n"

@@ -104,6 +104,20 @@ class Faults(unittest.TestCase):
             self.assertEqual(said, self.refused("check", *self.scene(output__series__every=every)))
             self.assertFalse((self.folder / "out").exists())
 
+    def test_a_run_beyond_the_machine(self):
+        """Ten thousand frames of ten million grains: 7 TB."""
+        large = self.scene(grains__count="10000000", run__duration="1000", output__frames="{every=0.1}")
+        said = self.refused("run", *large, "-o", "out")
+        self.assertRegex(said, r"s.toml: \S+: the run takes about \S+ GB of (disk|memory); .* --beyond-machine")
+        self.assertFalse((self.folder / "out").exists())
+        self.assertEqual(said, self.refused("check", *large))
+        done = self.run_chute("check", *large, "--beyond-machine")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"# disk +\S+ TB")
+        (self.folder / "w.toml").write_text((self.folder / "s.toml").read_text() + '\n[sweep]\nseeds = 1\n[[sweep.axis]]\n'
+                                            'key = "incline.angle"\nvalues = ["18 deg"]\n')
+        self.assertIn("GB of", self.refused("sweep", "w.toml", "-o", "d", *large[1:]))
+
     def test_step_longer_than_the_run(self):
         self.assertIn("is less than half a step", self.refused("check", *self.scene(engine__time_step="1e50")))
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engines/contact/contact_engine.hpp"
+#include "engines/kind/memory.hpp"
 
 namespace chute::contact {
 namespace {
@@ -102,7 +103,8 @@ std::vector<Fact> ContactMethod::facts(const engines::Setting& s) const {
       {"v_impact", impact_velocity_of(*this, s), s.in("m/s", "sqrt(g d)"), "faster approaches bounce"},
       {"v h/d", s.fastest * h / s.mean_diameter, "",
        "way of the fastest grain of the start in a step; 0.3 is where a run stops"},
-      {"tolerance", tolerance, "h m g √N", "residual of all contacts at the end of each step"}};
+      {"tolerance", tolerance, "h m g √N", "residual of all contacts at the end of each step"},
+      engines::memory_of_grains(s, 1800, 3000)};
 }
 
 double ContactMethod::seconds_per_step(const engines::Setting& s) const {

@@ -1,6 +1,7 @@
 #include "engines/event/event_method.hpp"
 
 #include "engines/event/event_engine.hpp"
+#include "engines/kind/memory.hpp"
 
 namespace chute::event {
 namespace {
@@ -43,6 +44,7 @@ std::vector<Fact> EventMethod::facts(const engines::Setting& s) const {
   auto list = walton_facts(s);
   list.push_back({"t_c", cut_off(*this, s), s.in("s", "sqrt(d/g)"),
                   "collisions of a pair that follow each other faster are elastic"});
+  list.push_back(engines::memory_of_grains(s, 1000, 1300));
   return list;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engines/hybrid/hybrid_engine.hpp"
+#include "engines/kind/memory.hpp"
 
 namespace chute::hybrid {
 namespace {
@@ -61,7 +62,8 @@ std::vector<Fact> HybridMethod::facts(const engines::Setting& s) const {
           {"v dt/d", s.fastest * dt / s.mean_diameter, "",
            "way of the fastest grain of the start in a step; 0.3 is where a run stops"},
           {"g dt^2/d", s.gravity * dt * dt / s.mean_diameter, "",
-           "how far grains at rest sink into each other, about"}};
+           "how far grains at rest sink into each other, about"},
+          engines::memory_of_grains(s, 1500, 2500)};
 }
 
 double HybridMethod::seconds_per_step(const engines::Setting& s) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engines/kind/memory.hpp"
 #include "engines/monte_carlo/monte_carlo_engine.hpp"
 #include "laws/list.hpp"
 
@@ -57,6 +58,7 @@ std::vector<Fact> MonteCarloMethod::facts(const engines::Setting& s) const {
       {"delta", trial_length * s.mean_diameter, s.in("m", "d"), "longest trial move at the begin"}};
   if (temperature > 0 && weight > 0)
     list.push_back({"T/mg", temperature / weight, s.in("m", "d"), "height over which a thin gas falls off"});
+  list.push_back(engines::memory_of_grains(s, 400, 500));
   return list;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engines/kind/memory.hpp"
 #include "engines/monte_carlo/monte_carlo_method.hpp"
 
 namespace chute::restructuring {
@@ -46,7 +47,8 @@ std::optional<Refusal> RestructuringMethod::refusal(const engines::Setting& s) c
 
 std::vector<Fact> RestructuringMethod::facts(const engines::Setting& s) const {
   return {{"shakes", s.duration, "", "times that every grain is laid"},
-          {"jolt", jolt * s.mean_diameter, s.in("m", "d"), "largest shift sideways before a grain falls"}};
+          {"jolt", jolt * s.mean_diameter, s.in("m", "d"), "largest shift sideways before a grain falls"},
+          engines::memory_of_grains(s, 1200, 1800)};
 }
 
 double RestructuringMethod::seconds_per_step(const engines::Setting& s) const {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "engines/kind/memory.hpp"
 #include "engines/soft/soft_engine.hpp"
 
 namespace chute::soft {
@@ -119,6 +120,7 @@ std::vector<Fact> SoftMethod::facts(const engines::Setting& s) const {
   if (const auto decay = slip_decay(s, dt))
     list.push_back({"residual", 100 * expected_residual(*decay), "%",
                     "of gravity's work that the energy account is off by in dense flows, about"});
+  list.push_back(engines::memory_of_grains(s, 900, 1200));
   return list;
 }
 
