@@ -115,7 +115,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"# disk +\S+ TB")
         (self.folder / "w.toml").write_text((self.folder / "s.toml").read_text() + '\n[sweep]\nseeds = 1\n[[sweep.axis]]\n'
-                                            'key = "incline.angle"\nvalues = ["18 deg"]\n')
+                                            'key = "contact.normal.restitution"\nvalues = [0.5, 0.6]\n')
         self.assertIn("GB of", self.refused("sweep", "w.toml", "-o", "d", *large[1:]))
 
     def test_step_longer_than_the_run(self):
