@@ -431,7 +431,10 @@ class Layouter {
       std::size_t panel = 0;
       for (std::size_t i = 0; i < occupied.size(); ++i) {
         if (legend.panel != -1 && legend.panel != static_cast<int>(i)) continue;
+        // where it is asked for, else where it covers nothing, else where at least no text is
         auto room = occupied[i].room_for(width, height, inset_from_frame, legend.wanted);
+        if (!room && in_corner(legend.wanted))
+          room = occupied[i].room_for(width, height, inset_from_frame, Place::automatic);
         if (!room && in_corner(legend.wanted))
           if (const auto at = occupied[i].beside_texts(width, height, inset_from_frame, legend.wanted))
             room = Occupancy::Room{*at, 0};

@@ -102,6 +102,10 @@ class Referee {
       if (tag.panel != text.panel && text.panel >= 0) continue;
       if (mark && bounds(tag).overlaps(text.rect))
         return add(Fault::text_on_data, tag.panel, told(text) + " covers a point of " + tag.series);
+      // names of lines and notes stand at lines on purpose
+      const bool large = text.kind == Box::Kind::legend || text.kind == Box::Kind::inset;
+      if (tag.kind == Tag::Kind::reference && large && crosses(tag, text.rect))
+        return add(Fault::text_on_data, tag.panel, told(text) + " covers a line " + tag.series);
       if (tag.kind == Tag::Kind::curve && crosses(tag, text.rect))
         return add(Fault::text_on_data, tag.panel, told(text) + " covers the curve of " + tag.series);
     }
@@ -189,7 +193,7 @@ class Referee {
     std::map<std::string, Drawn> all;
     for (const auto& tag : layout_.list.tags) {
       if (tag.panel != panel || tag.kind == Tag::Kind::sample || tag.kind == Tag::Kind::named ||
-          tag.kind == Tag::Kind::beyond)
+          tag.kind == Tag::Kind::beyond || tag.kind == Tag::Kind::reference)
         continue;
       auto& drawn = all[tag.series];
       const Point middle = bounds(tag).centre();

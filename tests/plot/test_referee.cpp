@@ -315,6 +315,17 @@ TEST_CASE("an inset keeps off the data where there is room, and the referee find
   REQUIRE(count(figure, Finding::Kind::text_on_data) == 1);
 }
 
+TEST_CASE("a legend asked into a corner keeps off a line there, and the referee finds one that does not") {
+  auto figure = one_panel({slope("a", 1, Kind::line), slope("b", 1.02, Kind::line)});
+  auto& panel = figure.panels[0];
+  panel.x.min = 0, panel.x.max = 1, panel.y.min = 0;
+  panel.legend = Place::top_left;
+  for (const double at : {0.1, 0.25}) panel.references.push_back({Reference::Kind::vertical, at, ""});
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  for (double at = 0.05; at < 1; at += 0.1) panel.references.push_back({Reference::Kind::vertical, at, ""});
+  REQUIRE(count(figure, Finding::Kind::text_on_data) == 1);  // where there is no room
+}
+
 TEST_CASE("a line's name keeps off the frame's ticks") {
   auto figure = one_panel({points("v", {-0.2, 0, 0.2}, {1, 2, 3})});
   auto& panel = figure.panels[0];
