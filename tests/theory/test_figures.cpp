@@ -118,3 +118,16 @@ TEST_CASE("theory is smooth to the eye, whatever --quick says") {
       REQUIRE(chute::where_bent(x, y, false, chute::smooth_bend).empty());
     }
 }
+
+TEST_CASE("a curve over decades is smooth where it is small, too") {
+  // 1/(1 + x²) falls by four decades: on a linear axis its foot looks straight, on a logarithmic one it bends
+  const auto points = chute::by_curvature([](double x) { return 1 / (1 + x * x); }, 0, 100);
+  double worst = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto [a, ya] = points[i - 1];
+    const auto [b, yb] = points[i];
+    const double middle = 1 / (1 + (a + b) * (a + b) / 4);
+    worst = std::max(worst, std::abs(std::log(middle) - (std::log(ya) + std::log(yb)) / 2));
+  }
+  REQUIRE(worst < 4 * chute::smooth_bend * std::log(1e4));
+}
