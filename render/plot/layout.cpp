@@ -196,6 +196,14 @@ class Layouter {
     return names;
   }
 
+  /// Lines of a table of names whose colours could not be told beside them get markers: never colour alone.
+  void mark_lines(int panel) {
+    const auto factors = factors_in(figure_, panel);
+    if (!factors) return;
+    for (auto& [name, look] : looks_)
+      if (factors->of.count(name)) look.marked = true;
+  }
+
   /// What stands above a panel: its letter, what it shows and what was held fixed, in as many lines as it takes.
   static std::string heading(const Panel& p) {
     std::string text = p.label.empty() ? "" : "(" + p.label + ")";
@@ -383,6 +391,7 @@ class Layouter {
         without_names_.assign(n, true);
       else
         without_names_[i] = true;
+      mark_lines(has_common_legend(figure_) ? -1 : static_cast<int>(i));
       make_legends();
       settled_ = false;
       return out;

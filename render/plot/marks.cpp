@@ -102,9 +102,32 @@ class SeriesPainter {
                    {width, dashed ? dash_pattern(ink_.dash, width) : std::vector<double>{}, Cap::butt,
                     has_bins(s_.kind) ? Join::miter : Join::round},
                    s_.faint ? ink_.color.with_alpha(0.35) : ink_.color);
+    if (ink_.marked && s_.kind == Kind::line) marks_on_the_way(points);
     p_.list.tag(Tag::Kind::curve, p_.panel, s_.name, 0, first);
     mark_polyline(p_.occupied, points, frame_.rect, width);
     if (s_.kind == Kind::steps) mark_bins();
+  }
+
+  /// A marker every so often: at other places on each curve, so that those that run together can be told apart.
+  void marks_on_the_way(const std::vector<Point>& points) {
+    constexpr double step = 14;  // in markers
+    const double size = p_.look.marker_size, between = step * size;
+    const auto shape = ink_.shape(size);
+    const Rect inside = frame_.rect.grown(-size / 2);
+    constexpr int phases = 5;
+    double to_next = between * (0.3 + static_cast<double>(ink_.marker % phases) / phases);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      Point a = points[i - 1], b = points[i];
+      if (!a.allFinite() || !b.allFinite() || !cut_segment(a, b, frame_.rect)) continue;
+      const double length = (b - a).norm();
+      for (; to_next < length; to_next += between) {
+        const Point at = a + (to_next / length) * (b - a);
+        if (!inside.contains(at)) continue;
+        draw_marker(p_.list, p_.look, shape, ink_.color, at);
+        p_.occupied.mark(shape.path.bounds().moved(at));
+      }
+      to_next -= length;
+    }
   }
 
   void dots() {
@@ -486,7 +509,7 @@ void draw_sample(DisplayList& list, const Look& style, Kind kind, const SeriesLo
     const auto shape = SeriesPainter::dot_shape(2.2 * look.dot_radius, ink.marker);
     list.items.emplace_back(DotsItem{shape, {{middle, at.y()}}, ink.color});
   }
-  if (has_markers(kind))
+  if (has_markers(kind) || (ink.marked && kind == Kind::line))
     SeriesPainter::draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
 }
 

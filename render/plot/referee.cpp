@@ -205,6 +205,15 @@ class Referee {
           form += outline(fill->path, middle);
           if (!is_same(fill->color, layout_.list.background)) drawn.color = fill->color;
         }
+        const bool on_its_way = tag.kind == Tag::Kind::curve && i > tag.first;  // a marker on a line
+        if (on_its_way) {
+          const auto* path = path_of(item);
+          const std::string mark = path ? (std::get_if<FillItem>(&item) ? " filled" : " outline") +
+                                              outline(*path, path->bounds().centre())
+                                        : "";
+          if (form.find(mark) == std::string::npos) form += mark;  // there are many of one shape
+          continue;
+        }
         if (const auto* stroke = std::get_if<StrokeItem>(&item)) {
           form += tag.kind == Tag::Kind::marker ? " outline" + outline(stroke->path, middle) : " line";
           for (const double d : stroke->stroke.dash) form += fmt::format(" {:.2f}", d);

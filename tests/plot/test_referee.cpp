@@ -268,6 +268,31 @@ TEST_CASE("names that make a table have one entry for each row and column") {
   REQUIRE_FALSE(factors_in(figure, -1));
 }
 
+TEST_CASE("lines of a table whose names find no room beside them get markers, and the legend has these") {
+  // so many lines so near to each other that no name fits between
+  std::vector<Series> series;
+  double height = 1;
+  for (const char* phi : {"Phi=1", "Phi=2", "Phi=3", "Phi=4"})
+    for (const char* method : {"soft", "hard"})
+      series.push_back(slope(std::string(method) + " " + phi, height += 0.02, Kind::line));
+  for (auto& s : series)  // all over the panel
+    for (std::size_t i = 0; i < s.x.size(); ++i) s.y[i] = height - s.y[i] + (i % 2 ? 1.0 : -1.0) * 3;
+  auto figure = one_panel(series);
+  figure.width = 60;
+  REQUIRE(factors_in(figure, -1)->has_lines);
+  const auto layout = lay_out(figure);
+  std::size_t named = 0;
+  for (const auto& tag : layout.list.tags) named += tag.kind == Tag::Kind::named;
+  REQUIRE(named == 0);
+  REQUIRE(count(figure, layout, Finding::Kind::color_alone) == 0);
+  REQUIRE(count(figure, layout, Finding::Kind::alike) == 0);
+  // a sample of a colour has its marker, one of a method none
+  std::size_t marked = 0;
+  for (const auto& tag : layout.list.tags)
+    if (tag.kind == Tag::Kind::sample) marked += tag.last - tag.first > 1;
+  REQUIRE(marked == 4);
+}
+
 TEST_CASE(
     "a part that the averages do not count looks as the whole does, hollow, and has one entry for all") {
   auto figure =
