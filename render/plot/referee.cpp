@@ -172,8 +172,13 @@ class Referee {
     constexpr double most = 0.5;
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
       std::size_t inside = 0, beyond = 0;
+      std::set<std::string> of_points;  // of histograms an arrow is a bin that is too high
+      for (const auto& s : figure_.panels[p].series)
+        if (s.kind == plot::Kind::markers || s.kind == plot::Kind::both || s.kind == plot::Kind::dots)
+          of_points.insert(s.name);
       for (const auto& tag : layout_.list.tags) {
-        if (tag.panel != static_cast<int>(p) || is_doubtful(tag.series)) continue;  // which may lie anywhere
+        if (tag.panel != static_cast<int>(p) || !of_points.count(tag.series)) continue;
+        if (is_doubtful(tag.series)) continue;  // which may lie anywhere
         if (tag.kind == Tag::Kind::marker || tag.kind == Tag::Kind::dots) inside += tag.points;
         if (tag.kind == Tag::Kind::beyond) beyond += tag.points;
       }

@@ -158,6 +158,13 @@ TEST_CASE("a panel whose points are mostly elsewhere is a fault") {
   REQUIRE(count(figure, Finding::Kind::mostly_outside) == 1);
 }
 
+TEST_CASE("a bin that is too high is an arrow, and no fault") {
+  auto figure = one_panel({points("n", {0.5, 1.5, 2.5, 3.5}, {10, 1, 2, 1}, Kind::steps)});
+  figure.panels[0].y.max = 3;
+  REQUIRE(arrows(figure) == 1);
+  REQUIRE(review(figure, lay_out(figure)).empty());
+}
+
 TEST_CASE("a legend says what a hollow marker means, also where whole series are told to be hollow") {
   auto figure = one_panel({slope("a", 1, Kind::both), slope("b", 2, Kind::both)});
   const auto samples = [&] {
