@@ -102,7 +102,61 @@ Margins Axes::fit(double width, double height) {
       m.left = std::max(m.left, gap + widest + 1.3 * gap + y_label_.ascent + y_label_.descent);
     if (!y_factor_.empty()) m.top = std::max(m.top, gap + y_factor_.ascent + y_factor_.descent);
   }
+  if (right_) fit_right(height, m);
   return m;
+}
+
+void Axes::fit_right(double height, Margins& m) {
+  const double gap = sizes_.gap;
+  right_ticks_ = ticks_for(*plot_.right, *right_, height, sizes_.tick, false);
+  right_texts_.clear();
+  right_widest_ = 0;
+  for (const auto& tick : right_ticks_.major) {
+    const auto& text = right_texts_.emplace_back(set_text(tick.label, sizes_.tick));
+    right_widest_ = std::max(right_widest_, text.width);
+    const double at = right_->fraction(tick.value) * height, half = (text.ascent + text.descent) / 2;
+    m.top = std::max(m.top, at + half - height), m.bottom = std::max(m.bottom, half - at);
+  }
+  right_label_ = set_to_fit(plot_.right->label, sizes_.label, height);
+  if (!right_label_.empty()) stand_on_strut(right_label_, sizes_.label);
+  right_factor_ = right_ticks_.factor.empty() ? TextBox{} : set_text(right_ticks_.factor, sizes_.tick);
+  m.right = std::max(m.right, gap + right_widest_);
+  if (!right_label_.empty())
+    m.right = std::max(m.right, gap + right_widest_ + 1.3 * gap + right_label_.ascent + right_label_.descent);
+  if (!right_factor_.empty()) m.top = std::max(m.top, gap + right_factor_.ascent + right_factor_.descent);
+}
+
+void Axes::draw_right(DisplayList& list, const Look& look, const Rect& frame, int panel, double shrink,
+                      std::vector<Box>& boxes) const {
+  const double gap = sizes_.gap;
+  const Color color = right_color_.value_or(look.ink);
+  Path ticks;
+  const auto tick = [&](double value, double length) {
+    const double y = frame.bottom - right_->fraction(value) * frame.height();
+    if (y < frame.top - 0.01 || y > frame.bottom + 0.01) return;
+    ticks.move({frame.right, y}).line({frame.right - length, y});
+  };
+  for (const auto& t : right_ticks_.major) tick(t.value, shrink * look.major_tick);
+  for (const double v : right_ticks_.minor) tick(v, shrink * look.minor_tick);
+  list.stroke(ticks, {look.hairline, {}, Cap::butt, Join::miter}, color);
+  const auto put = [&](Box::Kind kind, const TextBox& text, Point at, int turns, const std::string& source) {
+    draw_text(list, text, at, color, turns * std::numbers::pi / 2);
+    boxes.push_back({kind, text.box_at(at, turns), panel, source});
+  };
+  for (std::size_t i = 0; i < right_texts_.size(); ++i) {
+    const auto& text = right_texts_[i];
+    const double y = frame.bottom - right_->fraction(right_ticks_.major[i].value) * frame.height();
+    put(Box::Kind::tick_label, text, {frame.right + gap, y + (text.ascent - text.descent) / 2}, 0,
+        right_ticks_.major[i].label);
+  }
+  if (!right_label_.empty())
+    put(Box::Kind::axis_label, right_label_,
+        {frame.right + gap + right_widest_ + 1.3 * gap + right_label_.ascent,
+         frame.centre().y() + right_label_.width / 2},
+        1, plot_.right->label);
+  if (!right_factor_.empty())
+    put(Box::Kind::factor, right_factor_,
+        {frame.right - right_factor_.width, frame.top - gap - right_factor_.descent}, 0, right_ticks_.factor);
 }
 
 void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Margins& common, int panel,
@@ -119,7 +173,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
     const double y = frame.bottom - y_.fraction(value) * frame.height();
     if (y < frame.top - 0.01 || y > frame.bottom + 0.01) return;
     ticks.move({frame.left, y}).line({frame.left + length, y});
-    ticks.move({frame.right, y}).line({frame.right - length, y});
+    if (!right_) ticks.move({frame.right, y}).line({frame.right - length, y});
   };
   const double shrink = std::min(1.0, sizes_.tick / look.tick_size);
   for (const auto& t : x_ticks_.major) x_tick(t.value, shrink * look.major_tick);
@@ -130,6 +184,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
   Path outline;
   list.stroke(outline.rectangle(frame), {look.hairline, {}, Cap::butt, Join::miter}, look.ink);
   boxes.push_back({Box::Kind::frame, frame, panel, ""});
+  if (right_) draw_right(list, look, frame, panel, shrink, boxes);
 
   const auto put = [&](Box::Kind kind, const TextBox& text, Point at, int turns, const std::string& source) {
     draw_text(list, text, at, look.ink, turns * std::numbers::pi / 2);

@@ -30,6 +30,9 @@ class Axes {
   /// than the frame allows even at the smallest type.
   Axes(const Plot& plot, const Span& x, const Span& y, const TextSizes& sizes, bool show_x, bool show_y);
 
+  /// The axis on the right has this range; `color` is that of its ticks and texts, such as of its only series.
+  void set_right(const Span& right, std::optional<Color> color) { right_ = right, right_color_ = color; }
+
   /// Chooses ticks for a frame of this size and says what room they and the labels need around it.
   Margins fit(double width, double height);
 
@@ -40,6 +43,7 @@ class Axes {
 
   const Span& x() const { return x_; }
   const Span& y() const { return y_; }
+  const std::optional<Span>& right() const { return right_; }
 
  private:
   const Plot& plot_;
@@ -52,7 +56,16 @@ class Axes {
   std::vector<TextBox> x_texts_, y_texts_;
   double tick_ascent_ = 0, tick_descent_ = 0;  ///< of the x tick labels: one baseline
   bool x_factor_below_ = false;                ///< in a row of its own, beneath the axis label
+  std::optional<Span> right_;
+  std::optional<Color> right_color_;
+  Ticks right_ticks_;
+  TextBox right_label_, right_factor_;
+  std::vector<TextBox> right_texts_;
+  double right_widest_ = 0;  ///< of its tick labels
 
+  void fit_right(double height, Margins& m);
+  void draw_right(DisplayList& list, const Look& look, const Rect& frame, int panel, double shrink,
+                  std::vector<Box>& boxes) const;
   double row() const { return tick_ascent_ + tick_descent_; }
 };
 

@@ -4,8 +4,10 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-#include <array>
 #include <cmath>
+#include <cstring>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "common/error.hpp"
@@ -17,20 +19,19 @@ namespace {
 /// Cairo keeps fonts in caches beyond the life of a drawing, so these live as long as the program. Cairo
 /// locks them.
 cairo_font_face_t* cairo_face(Face face) {
-  static const auto faces = [] {
-    std::array<cairo_font_face_t*, 4> made{};
-    static FT_Library library = nullptr;
-    if (FT_Init_FreeType(&library) != 0) throw WorkError("cannot start FreeType");
-    for (std::size_t i = 0; i < made.size(); ++i) {
-      const auto path = Fonts::file(static_cast<Face>(i));
-      FT_Face file = nullptr;
-      if (FT_New_Face(library, path.c_str(), 0, &file) != 0)
-        throw WorkError(path + ": cannot read this font; it belongs to the package fonts-stix");
-      made[i] = cairo_ft_font_face_create_for_ft_face(file, FT_LOAD_NO_HINTING);
-    }
-    return made;
-  }();
-  return faces[static_cast<std::size_t>(face)];
+  static std::mutex mutex;
+  static std::map<Face, cairo_font_face_t*> made;
+  static FT_Library library = nullptr;
+  const std::lock_guard lock(mutex);
+  if (!library && FT_Init_FreeType(&library) != 0) throw WorkError("cannot start FreeType");
+  auto& found = made[face];
+  if (found) return found;
+  const auto [path, index] = Fonts::source(face);
+  FT_Face file = nullptr;
+  if (FT_New_Face(library, path.c_str(), index, &file) != 0)
+    throw WorkError(path + ": cannot read this font" +
+                    (family_of(face) == 0 ? "; it belongs to the package fonts-stix" : ""));
+  return found = cairo_ft_font_face_create_for_ft_face(file, FT_LOAD_NO_HINTING);
 }
 
 class Canvas {
@@ -91,6 +92,30 @@ class Canvas {
       dots(cairo_, item);
   }
 
+  void draw(const PictureItem& item) {
+    const auto& from = item.picture;
+    cairo_surface_t* picture = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, from.width, from.height);
+    unsigned char* const data = cairo_image_surface_get_data(picture);
+    const int stride = cairo_image_surface_get_stride(picture);
+    for (int y = 0; y < from.height; ++y)
+      for (int x = 0; x < from.width; ++x) {
+        // Cairo's pixels are whole words with alpha multiplied in
+        const auto* p = from.pixel(x, y);
+        const std::uint32_t alpha = p[3];
+        std::uint32_t word = alpha << 24;
+        for (int c = 0; c < 3; ++c) word |= (p[c] * alpha + 127) / 255 << (16 - 8 * c);
+        std::memcpy(data + static_cast<std::ptrdiff_t>(y) * stride + 4 * x, &word, 4);
+      }
+    cairo_surface_mark_dirty(picture);
+    cairo_save(cairo_);
+    cairo_translate(cairo_, item.rect.left, item.rect.top);
+    cairo_scale(cairo_, item.rect.width() / from.width, item.rect.height() / from.height);
+    cairo_set_source_surface(cairo_, picture, 0, 0);
+    cairo_paint(cairo_);
+    cairo_restore(cairo_);
+    cairo_surface_destroy(picture);
+  }
+
   void draw(const ClipBegin& clip) {
     cairo_save(cairo_);
     cairo_rectangle(cairo_, clip.rect.left, clip.rect.top, clip.rect.width(), clip.rect.height());
@@ -106,7 +131,7 @@ class Canvas {
 
   void ink(Color c) { cairo_set_source_rgba(cairo_, c.r, c.g, c.b, c.a); }
 
-  static void trace(cairo_t* cairo, const Path& path, Point by = {}) {
+  static void trace(cairo_t* cairo, const Path& path, Point by = {0, 0}) {
     std::size_t k = 0;
     const auto& p = path.points;
     for (auto verb : path.verbs) switch (verb) {

@@ -34,8 +34,9 @@ Side side_of(Axis& axis, const std::vector<double>& values, std::size_t cells) {
 }
 
 bool is_crowd(const Panel& panel) {
-  return panel.series.size() == 1 && !panel.map && !panel.chains && panel.series[0].kind == Kind::dots &&
-         panel.series[0].x.size() > most_dots && panel.x.scale != Scale::log && panel.y.scale != Scale::log;
+  return panel.series.size() == 1 && !panel.map && !panel.chains && !panel.right &&
+         panel.series[0].kind == Kind::dots && panel.series[0].x.size() > most_dots &&
+         panel.x.scale != Scale::log && panel.y.scale != Scale::log;
 }
 
 /// One quantity has one range, as elsewhere: here it must be known before cells are made of it.

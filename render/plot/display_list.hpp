@@ -3,6 +3,7 @@
 #include <variant>
 #include <vector>
 
+#include "image/image.hpp"
 #include "plot/geometry.hpp"
 
 /// What a finished layout is: things to draw, in order, in points. Every back end draws this list and decides
@@ -32,8 +33,17 @@ struct StrokeItem {
   Color color;
 };
 
-/// The typefaces that text is set in: one family, four faces.
+/// The typefaces that text is set in: those of STIXGeneral, and behind them four for each family that was asked for (fonts.hpp).
 enum class Face : std::uint8_t { regular, italic, bold, bold_italic };
+inline constexpr int faces_in_family = 4;
+
+inline bool is_italic(Face face) { return static_cast<int>(face) % 2 == 1; }
+inline bool is_bold(Face face) { return static_cast<int>(face) % faces_in_family >= 2; }
+inline int family_of(Face face) { return static_cast<int>(face) / faces_in_family; }
+/// The face of another family that leans and weighs the same.
+inline Face in_family(Face face, int family) {
+  return static_cast<Face>(static_cast<int>(face) % faces_in_family + faces_in_family * family);
+}
 
 struct Glyph {
   std::uint32_t id = 0;  ///< in the face
@@ -61,13 +71,19 @@ struct DotsItem {
   Color color;
 };
 
+/// Pixels, such as a scene in space, stretched over `rect`. For files and Cairo's pixels; OSMesa does not draw it.
+struct PictureItem {
+  image::Image picture;
+  Rect rect;
+};
+
 /// Until the matching ClipEnd nothing outside is drawn. Not nested.
 struct ClipBegin {
   Rect rect;
 };
 struct ClipEnd {};
 
-using Item = std::variant<FillItem, StrokeItem, GlyphRun, DotsItem, ClipBegin, ClipEnd>;
+using Item = std::variant<FillItem, StrokeItem, GlyphRun, DotsItem, PictureItem, ClipBegin, ClipEnd>;
 
 /// What a stretch of items stands for, so that a reader of the list can tell data from furniture (referee.hpp).
 /// Back ends do not look at it.
@@ -75,6 +91,7 @@ struct Tag {
   enum class Kind {
     marker,    ///< one point of a series
     dots,      ///< a cloud
+    area,      ///< the cells of a series
     curve,     ///< a line, an outline, a band's edge
     beyond,    ///< an arrow at the frame for points outside
     sample,    ///< of a legend

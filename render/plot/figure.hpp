@@ -31,6 +31,7 @@ enum class Kind {
   steps,  ///< a histogram's outline; x are bin centres
   bars,   ///< a histogram, filled
   dots,   ///< small dots, for thousands of points
+  cells,  ///< the cells of a grid about the points, filled: a phase diagram
 };
 
 struct Series {
@@ -42,6 +43,7 @@ struct Series {
   std::vector<double> x_err, y_err;  ///< empty or as long as x; NaN where not known
   bool faint = false;                ///< its lines are only hinted at
   bool hollow = false;  ///< its markers are hollow and not joined: points that averages do not vouch for
+  bool right = false;   ///< its y counts along the axis on the right
   // Automatic where absent: counted through the orders of style.hpp
   std::optional<int> color, marker, dash;
   std::optional<Color> ink;           ///< a colour of its own in place of one of those
@@ -65,8 +67,11 @@ struct Region {
 
 struct Note {
   std::string text;
-  double x = 0, y = 0;    ///< of its middle, in the units of the axes
-  bool fraction = false;  ///< x and y are fractions of the frame from its lower left corner instead
+  double x = 0, y = 0;         ///< of its middle, in the units of the axes
+  bool fraction = false;       ///< x and y are fractions of the frame from its lower left corner instead
+  std::vector<double> arrow;   ///< [x, y] of what it is about, in the units of the axes; empty: no arrow
+  std::optional<Color> ink;    ///< of text and arrow
+  std::optional<double> size;  ///< of its type, in points
 };
 
 enum class Place {
@@ -93,6 +98,7 @@ struct Map {
   bool diverging = false;           ///< for values of both signs: white is 0
   bool log = false;                 ///< values are decimal logarithms; the bar shows what they are of
   int contours = 0;                 ///< lines of equal value, evenly between the ends of the colours
+  int filled = 0;  ///< so many bands of one colour each between lines of equal value, in place of cells
 };
 
 /// Lines through points, as thick as a number: a network of forces.
@@ -105,6 +111,7 @@ struct Chains {
 struct Plot {
   std::string title;
   Axis x, y;
+  std::optional<Axis> right;  ///< of the series that say so; its ticks stand on the right
   std::vector<Series> series;
   std::vector<Reference> references;
   std::vector<Region> regions;
@@ -131,7 +138,8 @@ enum class Legend { automatic, each, common, off };  ///< automatic: common if t
 
 /// What a figure has otherwise than its style, in points.
 struct StyleChanges {
-  std::vector<Color> colors;  ///< of series, in the order in which they come
+  std::vector<Color> colors;        ///< of series, in the order in which they come
+  std::optional<std::string> font;  ///< family of all texts
   std::optional<Color> ink, paper;
   std::optional<double> font_size, line_width, marker_size, hairline;
 };

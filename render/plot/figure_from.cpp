@@ -6,8 +6,10 @@
 #include <map>
 
 #include "common/error.hpp"
+#include "plot/cells.hpp"
 #include "plot/density.hpp"
 #include "plot/factors.hpp"
+#include "plot/legend.hpp"
 #include "plot/map.hpp"
 #include "plot/parameters.hpp"
 #include "plot/recipe.hpp"
@@ -182,7 +184,7 @@ class Builder {
       s.kind = static_cast<Kind>(static_cast<int>(kind) - 1);
       s.hollow = is_told_hollow(table_.comments, panel, s.name);
       // points that averages do not vouch for are not joined, nor drawn as a line of their own
-      if (is_doubtful(s.name) && !own && s.kind != Kind::dots) {
+      if (is_doubtful(s.name) && !own && s.kind != Kind::dots && s.kind != Kind::cells) {
         s.kind = Kind::markers;
         if (s.x.size() > crowded) s.size = small_marker;
       }
@@ -191,7 +193,7 @@ class Builder {
         if (own->color >= 0) s.color = own->color;
         if (own->marker >= 0) s.marker = own->marker;
         if (own->dash >= 0) s.dash = own->dash;
-        s.ink = own->ink, s.width = own->width, s.size = own->size;
+        s.ink = own->ink, s.width = own->width, s.size = own->size, s.right = own->right;
       }
       if (const auto told = recipe_.labels.find(s.name); !s.label && told != recipe_.labels.end())
         s.label = told->second;
@@ -223,6 +225,7 @@ class Builder {
     Map map;
     map.label = wanted.label, map.low = wanted.low, map.high = wanted.high;
     map.diverging = wanted.diverging, map.contours = static_cast<int>(wanted.contours);
+    map.filled = static_cast<int>(wanted.filled);
     for (const auto& [y, row] : of) map.x.insert(map.x.end(), row->x.begin(), row->x.end());
     std::sort(map.x.begin(), map.x.end());
     map.x.erase(std::unique(map.x.begin(), map.x.end()), map.x.end());
@@ -235,6 +238,8 @@ class Builder {
                                         map.x.begin())] = row->y[i] / unscaled;
       map.values.insert(map.values.end(), values.begin(), values.end());
     }
+    if (map.filled > 0 && (map.x.size() < 2 || map.y.size() < 2))
+      fail_recipe("map: filled needs at least two columns and two rows");
     std::erase_if(series, [&](const Series& s) { return matches(wanted.series, s.name); });
     return map;
   }
@@ -260,6 +265,24 @@ class Builder {
     return chains;
   }
 
+  /// A second axis of y, if the recipe has one or a series asks for it.
+  void make_right_axis(const PanelRecipe& p, Panel& panel) const {
+    const bool used = std::any_of(panel.series.begin(), panel.series.end(), [](auto& s) { return s.right; });
+    if (!used && p.right) fail_recipe("panel.right: no series of this panel has axis = \"right\"");
+    if (!used) return;
+    if (rows_.y_times) fail_recipe("right: dates have no second axis");
+    if (p.map) fail_recipe("right: the colour bar of the map stands there");
+    const AxisRecipe general = recipe_.right.value_or(AxisRecipe{}), own = p.right.value_or(AxisRecipe{});
+    panel.right = make_axis(general, own, false);
+    const double change = factor(general, own) / factor(recipe_.y, p.y);
+    for (auto& s : panel.series) {
+      if (!s.right) continue;
+      for (double& y : s.y) y *= change;
+      for (double& e : s.y_err) e *= std::abs(change);
+      if (!s.label) s.label = label_from_name(s.name) + " (right)";
+    }
+  }
+
   Panel make_panel(const PanelRecipe& p) const {
     Panel panel;
     panel.label = p.tag.value_or(p.label), panel.title = p.title, panel.legend = p.legend;
@@ -267,23 +290,29 @@ class Builder {
     panel.x = make_axis(recipe_.x, p.x, rows_.x_times), panel.y = make_axis(recipe_.y, p.y, rows_.y_times);
     panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
     panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
+    make_right_axis(p, panel);
     if (p.chains) panel.chains = make_chains(p, panel.series);
+    // Maps and phase diagrams fill their frames.
+    const auto tight = [](Axis& axis, const std::vector<double>& edges) {
+      if (!axis.min) axis.min = edges.front();
+      if (!axis.max) axis.max = edges.back();
+    };
+    const auto fill_frame = [&](const std::vector<double>& x, const std::vector<double>& y, bool to_edges) {
+      tight(panel.x, to_edges ? cell_edges(x, panel.x.scale) : x);
+      tight(panel.y, to_edges ? cell_edges(y, panel.y.scale) : y);
+    };
     if (p.map) {
       panel.map = make_map(p, panel.series);
-      // A map fills its frame.
-      const auto tight = [](Axis& axis, const std::vector<double>& middles) {
-        const auto edges = cell_edges(middles);
-        if (!axis.min) axis.min = edges.front();
-        if (!axis.max) axis.max = edges.back();
-      };
-      tight(panel.x, panel.map->x), tight(panel.y, panel.map->y);
+      fill_frame(panel.map->x, panel.map->y, panel.map->filled == 0);
     }
+    if (const auto grid = cell_grid(panel); !grid.empty()) fill_frame(grid.x, grid.y, true);
     if (!panel.x.names.empty()) set_side_by_side(panel.series);
     for (const auto& i : p.insets) {
       Inset& inset = panel.insets.emplace_back();
       inset.width = i.width, inset.height = i.height, inset.place = i.place;
       inset.plot.x = make_axis({}, i.x, rows_.x_times), inset.plot.y = make_axis({}, i.y, rows_.y_times);
       inset.plot.series = make_series(i.panel.value_or(p.label), i.series, factor({}, i.x), factor({}, i.y));
+      for (auto& s : inset.plot.series) s.right = false;
     }
     return panel;
   }

@@ -4,7 +4,6 @@
 #include FT_FREETYPE_H
 #include <hb-subset.h>
 
-#include <array>
 #include <memory>
 #include <unordered_map>
 
@@ -27,10 +26,10 @@ using Owned = std::unique_ptr<T, Destroy<destroy>>;
 }  // namespace
 
 std::string subset_font(Face face, const std::set<char32_t>& characters) {
-  const auto path = Fonts::file(face);
+  const auto [path, index] = Fonts::source(face);
   const Owned<hb_blob_t, hb_blob_destroy> file(hb_blob_create_from_file_or_fail(path.c_str()));
   if (!file) throw WorkError(path + ": cannot read this font");
-  const Owned<hb_face_t, hb_face_destroy> whole(hb_face_create(file.get(), 0));
+  const Owned<hb_face_t, hb_face_destroy> whole(hb_face_create(file.get(), static_cast<unsigned>(index)));
   const Owned<hb_subset_input_t, hb_subset_input_destroy> input(hb_subset_input_create_or_fail());
   if (!input) throw WorkError("HarfBuzz cannot make a subset: out of memory");
   for (char32_t c : characters) hb_set_add(hb_subset_input_unicode_set(input.get()), c);
@@ -47,8 +46,8 @@ std::string subset_font(Face face, const std::set<char32_t>& characters) {
 }
 
 char32_t character_of(Face face, std::uint32_t glyph) {
-  static thread_local std::array<std::unordered_map<std::uint32_t, char32_t>, 4> characters;
-  auto& known = characters[static_cast<std::size_t>(face)];
+  static thread_local std::unordered_map<int, std::unordered_map<std::uint32_t, char32_t>> characters;
+  auto& known = characters[static_cast<int>(face)];
   if (known.empty()) {
     const auto file = static_cast<FT_Face>(Fonts::mine().native(face));
     FT_UInt id = 0;

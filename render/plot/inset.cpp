@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "plot/axes.hpp"
+#include "plot/extents.hpp"
 #include "plot/mathtext.hpp"
 
 namespace chute::plot {

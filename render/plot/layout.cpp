@@ -10,6 +10,10 @@
 
 #include "common/error.hpp"
 #include "plot/axes.hpp"
+#include "plot/cells.hpp"
+#include "plot/extents.hpp"
+#include "plot/fonts.hpp"
+#include "plot/headings.hpp"
 #include "plot/inset.hpp"
 #include "plot/legend.hpp"
 #include "plot/map.hpp"
@@ -106,7 +110,10 @@ class Layouter {
     for (std::size_t i = 0; i < panels.size(); ++i) {
       Extent ex = extents[i].x, ey = extents[i].y;
       double headroom = headroom_[i];
+      Extent eright = extents[i].right;
       for (std::size_t k = 0; k < panels.size(); ++k) {
+        if (panels[i].right && panels[k].right && is_same(*panels[i].right, *panels[k].right))
+          eright.include(extents[k].right);
         if ((figure_.share_x && column(k) == column(i)) || is_same(panels[i].x, panels[k].x))
           ex.include(extents[k].x);
         if ((figure_.share_y && row(k) == row(i)) || is_same(panels[i].y, panels[k].y))
@@ -116,7 +123,27 @@ class Layouter {
       raise(y, headroom);
       const bool show_x = !figure_.share_x || !has_below(i), show_y = !figure_.share_y || column(i) == 0;
       axes_.push_back(std::make_unique<Axes>(panels[i], span_of(panels[i].x, ex), y, sizes_, show_x, show_y));
+      if (!panels[i].right) continue;
+      Span right = span_of(*panels[i].right, eright);
+      raise(right, headroom);
+      axes_.back()->set_right(right, color_of_right(panels[i]));
     }
+  }
+
+  /// The axis on the right has the colour of its series, if that is one colour.
+  std::optional<Color> color_of_right(const Panel& panel) const {
+    std::optional<Color> color;
+    for (const auto& s : panel.series) {
+      if (!s.right) continue;
+      const Color own = looks_.at(s.name).color;
+      if (color && (own.r != color->r || own.g != color->g || own.b != color->b)) return {};
+      color = own;
+    }
+    return color;
+  }
+
+  Frame frame_of(std::size_t i) const {
+    return {frames_[i], axes_[i]->x(), axes_[i]->y(), axes_[i]->right()};
   }
 
   /// Series of a panel, or of all (-1); those in insets too.
@@ -169,7 +196,8 @@ class Layouter {
       LegendPlan plan{{look_, looks_}, static_cast<int>(i), place, place == Place::top};
       fill_block(plan.block, static_cast<int>(i), !has_names(i));
       bool asked = place != Place::automatic;
-      for (const auto& s : panels[i].series) asked = asked || (s.label && !s.label->empty());
+      for (const auto& s : panels[i].series)
+        asked = asked || (s.label && !s.label->empty()) || s.kind == Kind::cells || s.right;
       if (plan.block.count() > (asked ? 0 : 1)) legends_.push_back(std::move(plan));
     }
   }
@@ -204,38 +232,10 @@ class Layouter {
       if (factors->of.count(name)) look.marked = true;
   }
 
-  /// What stands above a panel: its letter, what it shows and what was held fixed, in as many lines as it takes.
-  static std::string heading(const Panel& p) {
-    std::string text = p.label.empty() ? "" : "(" + p.label + ")";
-    for (const auto* part : {&p.title, &p.parameters})
-      if (!part->empty())
-        text += (text.empty() ? "" : part == &p.title || p.title.empty() ? " " : ", ") + *part;
-    return text;
-  }
-  std::vector<TextBox> heading_lines(const Panel& p, double width) const {
-    const auto text = heading(p);
-    std::vector<TextBox> lines;
-    if (text.empty()) return lines;
-    std::string line;
-    for (std::size_t at = 0; at < text.size();) {
-      const auto comma = text.find(", ", at);
-      const auto end = comma == std::string::npos ? text.size() : comma + 1;
-      const auto part = text.substr(at, end - at);
-      const auto longer = line.empty() ? part : line + " " + part;
-      if (!line.empty() && set_text(longer, look_.legend_size).width > width) {
-        lines.push_back(set_to_fit(line, look_.legend_size, width));
-        line = part;
-      } else {
-        line = longer;
-      }
-      at = comma == std::string::npos ? text.size() : comma + 2;
-    }
-    lines.push_back(set_to_fit(line, look_.legend_size, width));
-    return lines;
-  }
   double heading_height(const Panel& p, double width) const {
     double height = 0;
-    for (const auto& line : heading_lines(p, width)) height += line.ascent + line.descent + sizes_.gap;
+    for (const auto& line : heading_lines(p, look_.legend_size, width))
+      height += line.ascent + line.descent + sizes_.gap;
     return height;
   }
   double legend_height(int panel) const {
@@ -269,7 +269,8 @@ class Layouter {
       for (std::size_t i = 0; i < n; ++i) {
         Margins m = axes_[i]->fit(width, height);
         if (figure_.panels[i].map)
-          m.right = std::max(m.right, bar_width(look_, *figure_.panels[i].map, height));
+          m.right = std::max(m.right, bar_width(look_, *figure_.panels[i].map, height)),
+          m.top = std::max(m.top, bar_above(look_, *figure_.panels[i].map, height));
         axes_top_[i] = m.top;
         m.top += heading_height(figure_.panels[i], width) + above_frame(static_cast<int>(i), width);
         Margins &c = column_margins_[static_cast<std::size_t>(column(i))],
@@ -363,9 +364,9 @@ class Layouter {
     const auto n = figure_.panels.size();
     std::vector<Occupancy> occupied;
     for (std::size_t i = 0; i < n; ++i) {
-      const Frame frame{frames_[i], axes_[i]->x(), axes_[i]->y()};
+      const Frame frame = frame_of(i);
       Painter painter{out.list, look_, occupied.emplace_back(frames_[i]), static_cast<int>(i),
-                      figure_.panels[i].map.has_value()};
+                      figure_.panels[i].map || !cell_grid(figure_.panels[i]).empty()};
       draw_marks(painter, frame, figure_.panels[i], looks_);
       for (const Rect& text : occupied.back().texts())
         out.boxes.push_back({Box::Kind::note, text, static_cast<int>(i), ""});
@@ -382,7 +383,7 @@ class Layouter {
       for (const auto& inset : figure_.panels[i].insets)
         draw_inset(out, inset, frames_[i], static_cast<int>(i), look_, looks_, occupied[i]);
     for (std::size_t i = 0; i < n; ++i) {
-      const Frame frame{frames_[i], axes_[i]->x(), axes_[i]->y()};
+      const Frame frame = frame_of(i);
       if (!has_names(i) || put_names(out, names_in(i), frame, figure_.panels[i], looks_, occupied[i], look_,
                                      static_cast<int>(i)))
         continue;
@@ -405,7 +406,7 @@ class Layouter {
     const auto& panels = figure_.panels;
     std::vector<std::vector<TextBox>> all;
     for (std::size_t i = 0; i < panels.size(); ++i)
-      all.push_back(heading_lines(panels[i], frames_[i].width()));
+      all.push_back(heading_lines(panels[i], look_.legend_size, frames_[i].width()));
     for (std::size_t i = 0; i < panels.size(); ++i) {
       double top = frames_[i].top - row_margins_[static_cast<std::size_t>(row(i))].top;
       for (std::size_t line = 0; line < all[i].size(); ++line) {
@@ -479,6 +480,7 @@ class Layouter {
 
 Layout lay_out(const Figure& figure) {
   try {
+    const FamilyScope family(figure.changes.font ? font_family(*figure.changes.font) : 0);
     return Layouter(figure).run();
   } catch (const InputError& error) {
     throw figure.source.empty() ? error : InputError(figure.source + ": " + error.what());

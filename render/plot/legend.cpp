@@ -21,7 +21,7 @@ void LegendBlock::put(const std::string& name, Kind kind, const SeriesLook& look
 
 void LegendBlock::add(const Series& series) {
   const auto& ink = looks_->at(series.name);
-  if (is_doubtful(series.name) && !series.label) {
+  if (is_doubtful(series.name) && !series.label && series.kind != Kind::cells) {
     const auto word = series.name.substr(base_name(series.name).size() + 1);
     if (word == "apart")
       put(" " + word, Kind::markers, any_hollow(), "starts that part");

@@ -17,14 +17,19 @@ struct MapRange {
 };
 MapRange range_of(const Map& map);
 
-/// Edges of the map's cells along an axis, halfway between their middles.
-std::vector<double> cell_edges(const std::vector<double>& middles);
+/// Edges of cells along an axis, halfway between their middles as the axis shows them.
+std::vector<double> cell_edges(const std::vector<double>& middles, Scale scale = Scale::linear);
 
 /// The cells, and contours where asked for, inside the frame.
 void draw_map(DisplayList& list, const Look& look, const Frame& frame, const Map& map);
 
+/// The same as bands between lines of equal value: what draw_map does where `filled` asks for it.
+void draw_bands(DisplayList& list, const Look& look, const Frame& frame, const Map& map);
+
 /// How far the colour bar of a map reaches out to the right of its frame, whose height is given.
 double bar_width(const Look& look, const Map& map, double height);
+/// And above it: half of a number that stands at its end.
+double bar_above(const Look& look, const Map& map, double height);
 void draw_bar(DisplayList& list, const Look& look, const Rect& frame, const Map& map, int panel,
               std::vector<Box>& boxes);
 

@@ -7,44 +7,14 @@
 #include <memory>
 
 #include "common/error.hpp"
+#include "plot/cells.hpp"
+#include "plot/extents.hpp"
 #include "plot/map.hpp"
 #include "plot/polyline.hpp"
 #include "plot/shading.hpp"
 
 namespace chute::plot {
 namespace {
-
-bool has_line(Kind kind) { return kind == Kind::line || kind == Kind::both || kind == Kind::band; }
-bool has_markers(Kind kind) { return kind == Kind::markers || kind == Kind::both; }
-bool has_bins(Kind kind) { return kind == Kind::steps || kind == Kind::bars; }
-
-double error_at(const std::vector<double>& errors, std::size_t i) {
-  return i < errors.size() ? errors[i] : unknown;
-}
-
-void check_lengths(const Series& s) {
-  const auto wrong = [&](const char* column) {
-    throw InputError(fmt::format("series \"{}\": {} has another length than x", s.name, column));
-  };
-  if (s.y.size() != s.x.size()) wrong("y");
-  if (!s.x_err.empty() && s.x_err.size() != s.x.size()) wrong("x_err");
-  if (!s.y_err.empty() && s.y_err.size() != s.x.size()) wrong("y_err");
-}
-
-/// Edges of a histogram's bins from their centres: halfway between neighbours, the outer ones as wide inside
-/// as out.
-std::vector<double> bin_edges(const std::vector<double>& x) {
-  std::vector<double> edges;
-  const std::size_t n = x.size();
-  if (n == 0) return {};
-  if (n == 1) return {x[0] - 0.5, x[0] + 0.5};
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    if (i == 0) edges.push_back(1.5 * x[0] - 0.5 * x[1]);
-    edges.push_back((x[i] + x[i + 1]) / 2);
-  }
-  if (n > 1) edges.push_back(1.5 * x[n - 1] - 0.5 * x[n - 2]);
-  return edges;
-}
 
 /// The outline of a histogram from the ground up and down again; in a log frame the ground is the frame's
 /// lower edge.
@@ -70,7 +40,7 @@ class SeriesPainter {
   SeriesPainter(Painter& painter, const Frame& frame, const Series& series, const SeriesLook& ink)
       : look_(std::make_shared<const Look>(ink.of(painter.look))),
         p_{painter.list, *look_, painter.occupied, painter.panel, painter.over_map},
-        frame_(frame),
+        frame_(frame.of(series)),
         s_(series),
         ink_(ink) {}
 
@@ -151,7 +121,8 @@ class SeriesPainter {
   }
 
   void error_bars() {
-    if (s_.kind == Kind::line || s_.kind == Kind::dots || s_.kind == Kind::band) return;
+    if (s_.kind == Kind::line || s_.kind == Kind::dots || s_.kind == Kind::band || s_.kind == Kind::cells)
+      return;
     Path path;
     for (std::size_t i = 0; i < s_.x.size(); ++i) {
       if (!is_inside(i)) continue;
@@ -176,7 +147,7 @@ class SeriesPainter {
 
   /// No point is lost: what lies outside the frame is an arrow at it, pointing there.
   void arrows() {
-    if (s_.kind == Kind::line || s_.kind == Kind::band) return;
+    if (s_.kind == Kind::line || s_.kind == Kind::band || s_.kind == Kind::cells) return;
     struct Beyond {
       Point at, along;
       std::size_t points = 0;
@@ -226,23 +197,6 @@ class SeriesPainter {
     }
   }
 
-  static void draw_marker(DisplayList& list, const Look& look, const MarkerShape& shape, Color color,
-                          const Point& at) {
-    Path path;
-    path.append(shape.path, at);
-    const Stroke pen{0.85 * look.line_width, {}, Cap::butt, Join::miter};
-    if (shape.paint == MarkerShape::Paint::hollow) list.fill(path, look.paper);
-    if (!shape.inside.empty()) {
-      Path inside;
-      inside.append(shape.inside, at);
-      list.fill(inside, color);
-    }
-    if (shape.paint == MarkerShape::Paint::filled)
-      list.fill(path, color);
-    else
-      list.stroke(path, pen, color);
-  }
-
   /// Scatter dots differ in shape too, as far as their size lets one see it.
   static Path dot_shape(double radius, int marker) {
     switch (marker % 3) {
@@ -258,7 +212,7 @@ class SeriesPainter {
  private:
   std::shared_ptr<const Look> look_;  // shared: painters are moved, and p_ refers to it
   Painter p_;
-  const Frame& frame_;
+  Frame frame_;
   const Series& s_;
   const SeriesLook& ink_;
 
@@ -339,100 +293,11 @@ class SeriesPainter {
 
 }  // namespace
 
-namespace {
-
-/// What the series asks of the axes; what a given range of either axis hides asks for nothing.
-void include_series(Extents& e, const Plot& plot, const Series& s) {
-  const bool bins = has_bins(s.kind);
-  const auto mark = has_markers(s.kind)    ? Extent::Mark::marker
-                    : s.kind == Kind::dots ? Extent::Mark::dot
-                                           : Extent::Mark::none;
-  const auto shown = [](const Axis& axis, double v) {
-    return std::isfinite(v) && (axis.scale == Scale::linear || v > 0) && !(axis.min && v < *axis.min) &&
-           !(axis.max && v > *axis.max);
-  };
-  const auto include_error = [](Extent& extent, const Axis& axis, double v, double error) {
-    if (!(error > 0)) return;
-    extent.include(v - error, axis.scale);
-    extent.include(v + error, axis.scale);
-  };
-  for (std::size_t i = 0; i < s.x.size(); ++i) {
-    if (!shown(plot.x, s.x[i]) || !shown(plot.y, s.y[i])) continue;
-    e.x.include(s.x[i], plot.x.scale, mark);
-    e.y.include(s.y[i], plot.y.scale, mark);
-    if (s.kind == Kind::line || s.kind == Kind::dots) continue;
-    include_error(e.y, plot.y, s.y[i], error_at(s.y_err, i));
-    if (!bins) include_error(e.x, plot.x, s.x[i], error_at(s.x_err, i));
-  }
-  if (bins) {
-    e.y.from_zero = plot.y.scale == Scale::linear;
-    for (double edge : bin_edges(s.x)) e.x.include(edge, plot.x.scale);
-  }
-}
-
-}  // namespace
-
-/// Points that are not vouched for stretch an axis by so much of its length at most; those farther off become arrows at the frame.
-constexpr double doubtful_reach = 0.3;
-
-static bool is_near(const Extent& extent, const Axis& axis, double value) {
-  if (extent.low > extent.high) return true;
-  if (axis.scale == Scale::log) {
-    const double reach = std::pow(extent.high / extent.low, doubtful_reach);
-    return value > 0 && value * reach >= extent.low && value <= extent.high * reach;
-  }
-  const double reach = doubtful_reach * (extent.high - extent.low);
-  return value >= extent.low - reach && value <= extent.high + reach;
-}
-
-Extents extents_of(const Plot& plot) {
-  Extents e;
-  e.y.keep_off = true;
-  const bool all_doubtful = std::all_of(plot.series.begin(), plot.series.end(),
-                                        [](const Series& s) { return is_doubtful(s.name) || s.x.empty(); });
-  for (const auto& s : plot.series) {
-    check_lengths(s);
-    if (all_doubtful || !is_doubtful(s.name)) include_series(e, plot, s);
-  }
-  if (!all_doubtful) {
-    const Extents sure = e;
-    for (const auto& s : plot.series) {
-      if (!is_doubtful(s.name)) continue;
-      Series near = s;  // its points alone: errors of what is in doubt stretch nothing
-      near.x.clear(), near.y.clear(), near.x_err.clear(), near.y_err.clear();
-      for (std::size_t i = 0; i < s.x.size(); ++i)
-        if (is_near(sure.x, plot.x, s.x[i]) && is_near(sure.y, plot.y, s.y[i]))
-          near.x.push_back(s.x[i]), near.y.push_back(s.y[i]);
-      include_series(e, plot, near);
-    }
-  }
-  // a line that runs along the lower edge for long would not be seen there: it asks for room as markers do
-  for (const auto& s : plot.series) {
-    if (s.kind != Kind::line) continue;
-    const double edge = e.y.low + 0.01 * (e.y.high - e.y.low);
-    const auto there = std::count_if(s.y.begin(), s.y.end(), [&](double y) { return y < edge; });
-    if (there > 2 && 5 * static_cast<std::size_t>(there) > s.y.size())
-      e.y.dot_low = std::min(e.y.dot_low, e.y.low);
-  }
-  if (plot.map) {
-    for (const double x : cell_edges(plot.map->x)) e.x.include(x, plot.x.scale);
-    for (const double y : cell_edges(plot.map->y)) e.y.include(y, plot.y.scale);
-  }
-  if (plot.chains) {
-    for (const double x : plot.chains->x) e.x.include(x, plot.x.scale);
-    for (const double y : plot.chains->y) e.y.include(y, plot.y.scale);
-  }
-  for (const auto& r : plot.references) {
-    if (r.kind == Reference::Kind::horizontal) e.y.include(r.at, plot.y.scale);
-    if (r.kind == Reference::Kind::vertical) e.x.include(r.at, plot.x.scale);
-  }
-  return e;
-}
-
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks) {
   painter.list.items.emplace_back(ClipBegin{frame.rect});
   if (plot.map) draw_map(painter.list, painter.look, frame, *plot.map);
+  draw_cells(painter, frame, plot, cell_grid(plot), looks);
   if (plot.map && plot.map->log) mark_crowd(painter.occupied, frame, *plot.map);
   for (const auto& region : plot.regions) draw_region(painter, frame, plot, region);
   for (const auto& reference : plot.references) draw_reference(painter, frame, reference);
@@ -451,10 +316,34 @@ void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
   for (const auto& reference : plot.references) draw_reference_label(painter, frame, reference);
 }
 
+void draw_marker(DisplayList& list, const Look& look, const MarkerShape& shape, Color color,
+                 const Point& at) {
+  Path path;
+  path.append(shape.path, at);
+  const Stroke pen{0.85 * look.line_width, {}, Cap::butt, Join::miter};
+  if (shape.paint == MarkerShape::Paint::hollow) list.fill(path, look.paper);
+  if (!shape.inside.empty()) {
+    Path inside;
+    inside.append(shape.inside, at);
+    list.fill(inside, color);
+  }
+  if (shape.paint == MarkerShape::Paint::filled)
+    list.fill(path, color);
+  else
+    list.stroke(path, pen, color);
+}
+
 void draw_sample(DisplayList& list, const Look& style, Kind kind, const SeriesLook& ink, Point at,
                  double width) {
   const Look look = ink.of(style);
   const double middle = at.x() + width / 2, half = 0.32 * look.legend_size;
+  if (kind == Kind::cells) {
+    Path box;
+    box.rectangle({at.x(), at.y() - half, at.x() + width, at.y() + half});
+    list.fill(box, cell_tint(ink.color, look.paper));
+    list.stroke(box, {look.hairline, {}, Cap::butt, Join::miter}, look.ink);
+    draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
+  }
   if (kind == Kind::bars || kind == Kind::band) {
     Path box;
     box.rectangle({at.x() + (kind == Kind::bars ? 4 : 0), at.y() - half,
@@ -475,7 +364,7 @@ void draw_sample(DisplayList& list, const Look& style, Kind kind, const SeriesLo
     list.items.emplace_back(DotsItem{shape, {{middle, at.y()}}, ink.color});
   }
   if (has_markers(kind) || (ink.marked && kind == Kind::line))
-    SeriesPainter::draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
+    draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
 }
 
 }  // namespace chute::plot

@@ -16,10 +16,15 @@ namespace chute::plot {
 struct Frame {
   Rect rect;
   Span x, y;
+  std::optional<Span> right{};  ///< of the series that count along the axis on the right
 
   /// NaN where an axis cannot show the value.
   Point at(double px, double py) const {
     return {rect.left + x.fraction(px) * rect.width(), rect.bottom - y.fraction(py) * rect.height()};
+  }
+  /// The frame as this series' points count in it.
+  Frame of(const Series& series) const {
+    return series.right && right ? Frame{rect, x, *right, {}} : Frame{rect, x, y, {}};
   }
 };
 
@@ -65,16 +70,13 @@ struct Painter {
   bool over_map = false;  ///< lines must show on any colour
 };
 
-/// What each axis must show of these series.
-struct Extents {
-  Extent x, y;
-};
-Extents extents_of(const Plot& plot);
-
 /// Everything inside the frame, in order: regions, references, bands, bars, lines, error bars, markers.
 /// InputError if a region names an unknown series or a series' columns differ in length.
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks);
+
+/// One marker with its middle at `at`.
+void draw_marker(DisplayList& list, const Look& look, const MarkerShape& shape, Color color, const Point& at);
 
 /// The sample of a series in a legend: `width` points wide, its middle line at `at.y`.
 void draw_sample(DisplayList& list, const Look& look, Kind kind, const SeriesLook& ink, Point at,

@@ -123,30 +123,49 @@ class Setter {
     line.italic_correction = std::max(0.0, size * (m.box.right - m.advance));
   }
 
+  /// The face of the family that is set in, or STIXGeneral's where that has no such character.
+  Face face_for(Face usual, char32_t c) {
+    const Face own = in_family(usual, FamilyScope::current());
+    return fonts_.has(own, c) ? own : usual;
+  }
+
   Line characters(const MathNode& node, double size) {
     Line line;
-    GlyphRun run{face(node.italic, node.bold), size, {}, 0, {}, {}, {}};
-    if (node.shaped) {
+    const Face usual = face(node.italic, node.bold);
+    // one run for as many characters as one face has
+    std::u32string_view rest(node.characters);
+    while (!rest.empty()) {
+      GlyphRun run{face_for(usual, rest[0]), size, {0, 0}, 0, {}, {}, {}};
+      std::size_t count = 1;
+      while (count < rest.size() && face_for(usual, rest[count]) == run.face) ++count;
+      add_run(line, std::move(run), rest.substr(0, count), node.shaped);
+      rest.remove_prefix(count);
+    }
+    line.last_italic = node.italic;
+    return line;
+  }
+
+  void add_run(Line& line, GlyphRun run, std::u32string_view characters, bool shaped_together) {
+    const double begin = line.box.width, size = run.size;
+    if (shaped_together) {
       std::string text;
-      for (char32_t c : node.characters) text += encode_utf8(c);
+      for (char32_t c : characters) text += encode_utf8(c);
       double advance = 0;
       const auto shaped = fonts_.shape(run.face, text, advance);
       for (std::size_t i = 0; i < shaped.size(); ++i) {
         const auto end = i + 1 < shaped.size() ? shaped[i + 1].byte : text.size();
-        add_glyph(line, run, shaped[i].glyph, size * shaped[i].x,
+        add_glyph(line, run, shaped[i].glyph, begin + size * shaped[i].x,
                   text.substr(shaped[i].byte, end - shaped[i].byte), size);
       }
-      line.box.width = size * advance;
+      line.box.width = begin + size * advance;
     } else {
-      for (char32_t c : node.characters) {
+      for (char32_t c : characters) {
         const auto id = fonts_.glyph(run.face, c);
         add_glyph(line, run, id, line.box.width, encode_utf8(c), size);
         line.box.width += size * fonts_.metrics(run.face, id).advance;
       }
     }
-    line.last_italic = node.italic;
     line.box.runs.push_back(std::move(run));
-    return line;
   }
 
   Line row(const MathNode& node, double size, bool script) {

@@ -52,7 +52,7 @@ bool put_names(Layout& out, const std::vector<CurveName>& names, const Frame& fr
                const std::map<std::string, SeriesLook>& looks, Occupancy& occupied, const Look& look,
                int panel) {
   std::vector<std::vector<Point>> places;
-  for (const auto& s : plot.series) places.push_back(places_of(s, frame));
+  for (const auto& s : plot.series) places.push_back(places_of(s, frame.of(s)));
   struct Put {
     const CurveName* name;
     TextBox text;

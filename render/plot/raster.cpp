@@ -82,6 +82,7 @@ class Compiler {
     places.reserve(item.at.size());
     for (Point p : item.at) places.push_back(scale_ * p);
   }
+  void add(const PictureItem&) { throw WorkError("a page that holds a picture is drawn by Cairo"); }
   void emit(Operation::Kind kind, Color color) {
     if (triangles_.empty()) return;
     Operation op{kind,

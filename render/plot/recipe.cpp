@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "common/keys.hpp"
 #include "plot/draw.hpp"
+#include "plot/fonts.hpp"
 #include "plot/mathtext.hpp"
 
 namespace chute::plot {
@@ -18,10 +19,11 @@ constexpr std::array width_words{"single"sv, "double"sv};
 constexpr std::array style_words{"journal"sv, "slides"sv, "dark"sv};
 constexpr std::array share_words{"automatic"sv, "none"sv, "x"sv, "y"sv, "both"sv};
 constexpr std::array legend_words{"automatic"sv, "each"sv, "common"sv, "off"sv};
-constexpr std::array kind_words{"automatic"sv, "line"sv, "markers"sv, "both"sv, "band"sv,
-                                "steps"sv,     "bars"sv, "dots"sv,    "off"sv};
+constexpr std::array kind_words{"automatic"sv, "line"sv, "markers"sv, "both"sv,  "band"sv,
+                                "steps"sv,     "bars"sv, "dots"sv,    "cells"sv, "off"sv};
 constexpr std::array place_words{"automatic"sv,    "top-left"sv, "top-right"sv, "bottom-left"sv,
                                  "bottom-right"sv, "top"sv,      "off"sv,       "direct"sv};
+constexpr std::array side_words{"left"sv, "right"sv};
 constexpr std::array scale_words{"automatic"sv, "linear"sv, "log"sv};
 constexpr std::array reference_words{"diagonal"sv, "horizontal"sv, "vertical"sv};
 constexpr std::array color_words{"automatic"sv, "blue"sv, "vermillion"sv, "green"sv, "purple"sv,
@@ -33,6 +35,7 @@ constexpr std::array dash_words{"automatic"sv, "solid"sv, "dashed"sv,      "dott
 
 enum class Width { single_column, double_column };
 enum class Share { automatic, none, x, y, both };
+enum class YAxis { left, right };
 enum class Ordinal : int {};
 
 /// A slip in a text names its line.
@@ -78,6 +81,15 @@ std::optional<Color> color_from(const std::string& text) {
   if (text[0] != '#' || error != std::errc() || stop != end) return {};
   return Color::hex(rgb);
 }
+
+void check_font(TomlReader& a, const std::optional<std::string>& font) {
+  try {
+    if (font) font_family(*font);
+  } catch (const InputError& error) {
+    a.fail("font", error.what());
+  }
+}
+void check_font(KeyLister&, const std::optional<std::string>&) {}
 
 constexpr const char* color_form =
     "is no colour: write \"#c00000\", red, green and blue in hexadecimal digits";
@@ -166,6 +178,10 @@ static void describe(Archive& a, Note& note) {
   a.value("fraction", note.fraction, "x and y are parts of the frame, from its lower left");
   a.required("x", note.x, "of its middle");
   a.required("y", note.y, "of its middle");
+  a.value("arrow", note.arrow, "[x, y] of what it is about: an arrow goes there");
+  a.check(note.arrow.empty() || note.arrow.size() == 2, "arrow", "must be [x, y], in the units of the axes");
+  read_color(a, "color", note.ink, "of text and arrow, \"#c00000\"");
+  a.value("size", note.size, between(smallest_type, 40), "of its type, in points; default that of legends");
 }
 
 template <class Archive>
@@ -187,6 +203,8 @@ static void describe(Archive& a, MapRecipe& map) {
   a.value("high", map.high, "of the colours; default from the data");
   a.value("diverging", map.diverging, "white is 0");
   a.value("contours", map.contours, between(0, 50), "lines of equal value");
+  a.value("filled", map.filled, between(0, 50),
+          "so many bands of one colour each between lines of equal value, in place of cells");
 }
 
 template <class Archive>
@@ -204,6 +222,7 @@ static void describe(Archive& a, PanelRecipe& panel) {
   read_text(a, "parameters", panel.parameters, "what was held fixed; default what the table says");
   a.section("x", panel.x);
   a.section("y", panel.y);
+  a.section("right", panel.right);
   a.choice("legend", panel.legend, place_words, "top: above the frame");
   a.sections("reference", panel.references);
   a.sections("region", panel.regions);
@@ -232,6 +251,9 @@ static void describe(Archive& a, SeriesRecipe& series) {
   read_ordinal(a, "dash", series.dash, dash_words, "");
   a.value("width", series.width, positive, "of its line, in points");
   a.value("size", series.size, positive, "of its markers, in points");
+  YAxis side = YAxis::left;
+  a.choice("axis", side, side_words, "along which its y counts; right: that of [plot.right]");
+  series.right = side == YAxis::right;
 }
 
 template <class Archive>
@@ -263,9 +285,10 @@ static void describe_keys(Archive& a, PlotRecipe& recipe) {
   a.choice("legend", recipe.legend, legend_words, "automatic: common if panels show the same series");
   a.value("table", recipe.table,
           "also as a table: a row for each of the x axis' names, a column for each series");
-  a.choice("kind", recipe.kind, std::span(kind_words).first(8), "of series that nothing else decides");
+  a.choice("kind", recipe.kind, std::span(kind_words).first(9), "of series that nothing else decides");
   a.section("x", recipe.x);
   a.section("y", recipe.y);
+  a.section("right", recipe.right);
   a.sections("panel", recipe.panels);
   a.sections("series", recipe.series);
   a.sections("word", recipe.words);
@@ -283,6 +306,10 @@ void describe(KeyLister& a, PlotRecipe& recipe) { describe_keys(a, recipe); }
 template <class Archive>
 static void describe_keys(Archive& a, StyleChanges& style) {
   read_colors(a, "colors", style.colors, "[\"#c00000\", …] of series, in the order in which they come");
+  a.value(
+      "font", style.font,
+      "family of all texts, as fc-list names it; letters that it lacks, such as signs of mathematics, are STIX");
+  check_font(a, style.font);
   read_color(a, "ink", style.ink, "of texts and frames, \"#000000\"");
   read_color(a, "paper", style.paper, "of the ground, \"#ffffff\"");
   a.value("font_size", style.font_size, between(4, 40), "of labels, in points; the other texts follow");

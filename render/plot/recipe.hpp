@@ -26,9 +26,11 @@ class KeyLister;
 ///                               # panel has its own; automatic: those whose axes have the same label have one
 ///     legend = "automatic"      # automatic | each | common | off; automatic: common if panels show the same series
 ///     table = false             # also as a table: a row for each of the x axis' names, a column for each series
-///     kind = "automatic"        # line | markers | both | band | steps | bars | dots: of series that nothing else decides
+///     kind = "automatic"        # line | markers | both | band | steps | bars | dots | cells: of series that nothing else
+///                               # decides; cells: a phase diagram, the cells about the points of a grid are filled
 ///     x = { … }                 # axes of all panels, see below
 ///     y = { … }
+///     right = { … }             # a second axis of y, for series with axis = "right"
 ///
 ///     # an axis
 ///     label = "$h$ ($d$)"       # with its unit
@@ -43,16 +45,18 @@ class KeyLister;
 ///     tag = "a"                 # what stands in the picture for the label, (a); "" for nothing
 ///     title = "$\\epsilon=0$"    # after the tag, above the frame
 ///     parameters = "$\\mu=0$"    # after that: what was held fixed; default what the table tells (parameters.hpp)
-///     x = { … }                 # replaces what [plot] says, key by key; so does y
+///     x = { … }                 # replaces what [plot] says, key by key; so do y and right
 ///     y = { … }
 ///     legend = "automatic"      # automatic | top-left | top-right | bottom-left | bottom-right | top (above the frame) | off
 ///                               # | direct (names at the curves)
 ///     reference = [{ kind = "diagonal", at = 0 }, { kind = "horizontal", at = 0.5, label = "$v_0$" }, { kind = "vertical", at = 1 }]
 ///     region = [{ x_min = 0, x_max = 1, y_min = 0, y_max = 1, above = "AB eps=0", below = "BC eps=0", shade = 1 }]
 ///                               # shaded (0 to 3) within the ranges and between the curves that are named
-///     note = [{ text = "B", x = 2.2, y = 0.17, fraction = false }]   # its middle; fraction: of the frame, from its lower left
-///     map = { series = "density t=*", label = "$\\rho$", low = 0, high = 1, diverging = false, contours = 0 }
-///                               # colours: each series that matches is a row, whose place along y follows its name's last =
+///     note = [{ text = "B", x = 2.2, y = 0.17, fraction = false }]   # its middle; fraction: of the frame, from its lower left;
+///                               # arrow = [2, 0.1]: to what it is about; color, size
+///     map = { series = "density t=*", label = "$\\rho$", low = 0, high = 1, diverging = false, contours = 0, filled = 0 }
+///                               # colours: each series that matches is a row, whose place along y follows its name's last =;
+///                               # contours: lines of equal value; filled: bands between such lines in place of cells
 ///     chains = { places = "network", branches = "branch", weights = "force" }
 ///                               # a line through each row of `places`, along that row of `branches` (x, y: from end to end),
 ///                               # as thick as that of `weights` (y)
@@ -74,9 +78,11 @@ class KeyLister;
 ///     marker = "automatic"      # filled: circle up down block gem; hollow: square diamond ring triangle; cross
 ///     dash = "automatic"        # solid dashed dotted dash-dot long dash-dot-dot
 ///     width = 1.1               # of its line, in points; size: of its markers
+///     axis = "left"             # or right
 ///
 ///     [style]                   # or style = "FILE.toml" at the top of the recipe, a file with these keys, relative to it
 ///     colors = ["#c00000"]      # of series, in the order in which they come
+///     font = "DejaVu Sans"      # of all texts; default STIX
 ///     ink = "#000000"           # texts and frames; paper: the ground
 ///     font_size = 10            # of labels, in points; the other texts follow
 ///     line_width = 1.1          # points; so are marker_size and hairline
@@ -90,7 +96,7 @@ struct AxisRecipe {
   std::vector<std::string> names;
 };
 
-enum class KindChoice { automatic, line, markers, both, band, steps, bars, dots, off };
+enum class KindChoice { automatic, line, markers, both, band, steps, bars, dots, cells, off };
 
 struct SeriesRecipe {
   std::string match;
@@ -100,6 +106,7 @@ struct SeriesRecipe {
   KindChoice kind = KindChoice::automatic;
   int color = -1, marker = -1, dash = -1;  ///< -1: automatic
   std::optional<Color> ink;                ///< color = "#c00000"
+  bool right = false;                      ///< axis = "right"
   std::optional<double> width, size;       ///< points
 };
 
@@ -115,7 +122,7 @@ struct MapRecipe {
   std::string series, label;
   std::optional<double> low, high;
   bool diverging = false;
-  std::int64_t contours = 0;
+  std::int64_t contours = 0, filled = 0;
 };
 
 struct ChainsRecipe {
@@ -131,6 +138,7 @@ struct PanelRecipe {
   std::optional<std::string> tag;  ///< stands for the label in the picture
   std::optional<std::string> parameters;
   AxisRecipe x, y;
+  std::optional<AxisRecipe> right;
   Place legend = Place::automatic;
   std::vector<Reference> references;
   std::vector<Region> regions;
@@ -155,6 +163,7 @@ struct PlotRecipe {
   Legend legend = Legend::automatic;
   KindChoice kind = KindChoice::automatic;
   AxisRecipe x, y;
+  std::optional<AxisRecipe> right;
   std::vector<PanelRecipe> panels;
   std::vector<SeriesRecipe> series;
   std::vector<WordRecipe> words;

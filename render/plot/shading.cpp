@@ -21,7 +21,7 @@ std::vector<Point> curve(const Frame& frame, const Plot& plot, const std::string
     if (s.name != name) continue;
     std::vector<Point> points;
     for (std::size_t i = 0; i < s.x.size(); ++i) {
-      const Point p = frame.at(s.x[i], s.y[i]);
+      const Point p = frame.of(s).at(s.x[i], s.y[i]);
       if (p.allFinite()) points.push_back(p);
     }
     std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x() < b.x(); });
@@ -165,23 +165,72 @@ void draw_reference_label(Painter& painter, const Frame& frame, const Reference&
   mark_polyline(painter.occupied, reference_points(frame, reference), frame.rect, 2 * painter.look.hairline);
 }
 
+namespace {
+
+/// From the note's box, where the line to its middle leaves it, to the place that it is about.
+void draw_arrow(Painter& painter, const Frame& frame, const Note& note, const Rect& box, Color ink) {
+  constexpr double gap = 2, head = 5, half = 1.8;  // points
+  const Point tip = frame.at(note.arrow[0], note.arrow[1]);
+  if (!frame.rect.contains(tip, 0.01))
+    throw InputError(fmt::format("the arrow of the note \"{}\" points out of its panel", note.text));
+  const Rect away = box.grown(gap);
+  const Point middle = away.centre(), way = tip - middle;
+  const double leave = std::min(std::abs(way.x()) > 0 ? away.width() / 2 / std::abs(way.x()) : 1e9,
+                                std::abs(way.y()) > 0 ? away.height() / 2 / std::abs(way.y()) : 1e9);
+  if (leave * way.norm() + head > way.norm())
+    throw InputError(
+        fmt::format("the arrow of the note \"{}\" is shorter than its head: move the note away", note.text));
+  const Point start = middle + leave * way, along = way.normalized(), across{-along.y(), along.x()};
+  const Point neck = tip - head * along;
+  painter.list.stroke(Path{}.move(start).line(neck),
+                      {1.4 * painter.look.hairline, {}, Cap::butt, Join::miter}, ink);
+  painter.list.fill(Path{}.move(tip).line(neck + half * across).line(neck - half * across).close(), ink);
+  painter.occupied.mark_segment(start, tip, 2 * half);
+}
+
+}  // namespace
+
+namespace {
+
+/// A note as it is set, and where its baseline begins.
+struct SetNote {
+  TextBox text;
+  Point at{0, 0};
+
+  SetNote(const Look& look, const Frame& frame, const Note& note)
+      : text(set_text(note.text, note.size.value_or(look.legend_size))) {
+    const Point middle = note.fraction ? Point{frame.rect.left + note.x * frame.rect.width(),
+                                               frame.rect.bottom - note.y * frame.rect.height()}
+                                       : frame.at(note.x, note.y);
+    if (!frame.rect.contains(middle, 0.01))
+      throw InputError(fmt::format("note \"{}\" lies outside its panel", note.text));
+    const Rect room = frame.rect.grown(-2);
+    const double height = text.ascent + text.descent;
+    if (text.width > room.width() || height > room.height())
+      throw InputError(fmt::format("note \"{}\" is larger than its panel", note.text));
+    // near the frame it moves in
+    const double left = std::clamp(middle.x() - text.width / 2, room.left, room.right - text.width);
+    const double top = std::clamp(middle.y() - height / 2, room.top, room.bottom - height);
+    at = {left, top + text.ascent};
+  }
+};
+
+}  // namespace
+
+Rect note_box(const Look& look, const Frame& frame, const Note& note) {
+  const SetNote set(look, frame, note);
+  return set.text.box_at(set.at);
+}
+
 void draw_note(Painter& painter, const Frame& frame, const Note& note) {
-  const auto text = set_text(note.text, painter.look.legend_size);
-  const Point middle = note.fraction ? Point{frame.rect.left + note.x * frame.rect.width(),
-                                             frame.rect.bottom - note.y * frame.rect.height()}
-                                     : frame.at(note.x, note.y);
-  if (!frame.rect.contains(middle, 0.01))
-    throw InputError(fmt::format("note \"{}\" lies outside its panel", note.text));
-  const Rect room = frame.rect.grown(-2);
-  const double height = text.ascent + text.descent;
-  if (text.width > room.width() || height > room.height())
-    throw InputError(fmt::format("note \"{}\" is larger than its panel", note.text));
-  // near the frame it moves in
-  const double left = std::clamp(middle.x() - text.width / 2, room.left, room.right - text.width);
-  const double top = std::clamp(middle.y() - height / 2, room.top, room.bottom - height);
-  const Point at{left, top + text.ascent};
-  draw_text(painter.list, text, at, painter.look.ink);
-  painter.occupied.mark_text(text.box_at(at));
+  const SetNote set(painter.look, frame, note);
+  const Color ink = note.ink.value_or(painter.look.ink);
+  const Rect box = set.text.box_at(set.at);
+  if (painter.over_map)
+    painter.list.fill(Path{}.rectangle(box.grown(1)), painter.look.paper.with_alpha(0.75));
+  draw_text(painter.list, set.text, set.at, ink);
+  painter.occupied.mark_text(box);
+  if (note.arrow.size() == 2) draw_arrow(painter, frame, note, box, ink);
 }
 
 }  // namespace chute::plot

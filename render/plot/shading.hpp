@@ -8,6 +8,8 @@ void draw_region(Painter& painter, const Frame& frame, const Plot& plot, const R
 void draw_reference(Painter& painter, const Frame& frame, const Reference& reference);
 /// Its label, drawn above the data; tells the occupancy about the line too.
 void draw_reference_label(Painter& painter, const Frame& frame, const Reference& reference);
+/// Where its text stands.
+Rect note_box(const Look& look, const Frame& frame, const Note& note);
 void draw_note(Painter& painter, const Frame& frame, const Note& note);
 
 }  // namespace chute::plot

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -83,7 +83,7 @@ char32_t shown_character(Face face, std::uint32_t glyph, const std::string& text
 class Writer {
  public:
   std::string body;
-  std::array<std::set<char32_t>, 4> used;  ///< characters by face
+  std::map<Face, std::set<char32_t>> used;  ///< characters by face
 
   void add(const FillItem& item) {
     end_text();
@@ -123,7 +123,7 @@ class Writer {
       const auto bytes = static_cast<std::size_t>(glyph.bytes);
       const char32_t c = shown_character(run.face, glyph.id, run.text.substr(byte, bytes));
       byte += bytes;
-      used[static_cast<std::size_t>(run.face)].insert(c);
+      used[run.face].insert(c);
       const double off = std::abs(glyph.at.x() - expected);
       // readers that take only the first place of a span (librsvg) still see the spaces of mathematics
       if (!span.text.empty() && (off > 0.12 * run.size || glyph.at.y() != span.y)) put(run, span);
@@ -146,6 +146,11 @@ class Writer {
                           number(p.y()));
     body += "</g>\n";
     ++shapes_;
+  }
+
+  void add(const PictureItem& item) {
+    end_text();
+    put_picture(item.picture, item.rect);
   }
 
   void add(const ClipBegin& clip) {
@@ -188,8 +193,10 @@ class Writer {
     if (!span.kerned) span.x.resize(1);
     body += fmt::format("<tspan x=\"{}\" y=\"{}\" font-size=\"{}\"", numbers(span.x), number(span.y),
                         number(run.size));
-    if (run.face == Face::italic || run.face == Face::bold_italic) body += " font-style=\"italic\"";
-    if (run.face == Face::bold || run.face == Face::bold_italic) body += " font-weight=\"bold\"";
+    if (family_of(run.face) > 0)
+      body += fmt::format(" font-family=\"'{}'\"", escaped(family_name(family_of(run.face))));
+    if (is_italic(run.face)) body += " font-style=\"italic\"";
+    if (is_bold(run.face)) body += " font-weight=\"bold\"";
     body += paint("fill", run.color) + ">" + span.text + "</tspan>";
     span = {};
   }
@@ -201,22 +208,28 @@ class Writer {
     page.width = box.width(), page.height = box.height(), page.background.a = 0;
     auto& moved = std::get<DotsItem>(page.items.emplace_back(item));
     for (Point& p : moved.at) p = p - Point{box.left, box.top};
-    const auto png = image::encode_png(rasterise_by_cairo(page, dots_dpi));
+    put_picture(rasterise_by_cairo(page, dots_dpi), box);
+  }
+
+  void put_picture(const image::Image& picture, const Rect& box) {
     body += fmt::format(
         "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
         "xlink:href=\"data:image/png;base64,{}\"/>\n",
-        number(box.left), number(box.top), number(box.width()), number(box.height()), base64(png));
+        number(box.left), number(box.top), number(box.width()), number(box.height()),
+        base64(image::encode_png(picture)));
   }
 };
 
-std::string font_faces(const std::array<std::set<char32_t>, 4>& used) {
+std::string font_faces(const std::map<Face, std::set<char32_t>>& used) {
   std::string style;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i].empty()) continue;
+  for (const auto& [face, characters] : used) {
+    const int number = family_of(face);
+    const bool is_otf = Fonts::source(face).path.ends_with(".otf");
     style += fmt::format(
-        "@font-face{{font-family:{};font-style:{};font-weight:{};src:url(data:font/otf;base64,{})}}\n",
-        family, i % 2 ? "italic" : "normal", i / 2 ? "bold" : "normal",
-        base64(subset_font(static_cast<Face>(i), used[i])));
+        "@font-face{{font-family:{};font-style:{};font-weight:{};src:url(data:font/{};base64,{})}}\n",
+        number == 0 ? std::string(family) : "'" + escaped(family_name(number)) + "'",
+        is_italic(face) ? "italic" : "normal", is_bold(face) ? "bold" : "normal", is_otf ? "otf" : "ttf",
+        base64(subset_font(face, characters)));
   }
   return style;
 }

@@ -170,6 +170,8 @@ PointSet parse_dump(const FileBytes& piece, const std::function<bool(std::string
     } else if (words.starts_with("BOX BOUNDS")) {
       words.remove_prefix(std::string_view("BOX BOUNDS").size());
       set.lattice = read_box(lines, words);
+    } else if (words.starts_with("NUMBER OF ENTRIES") || words.starts_with("ENTRIES")) {
+      lines.fail("entries of a dump local, no grains; chute render GRAINS --contacts FILE draws contacts");
     } else if (take_word(words) == "ATOMS") {
       if (!count) lines.fail("atoms without their number");
       std::vector<RowColumn> columns;

@@ -1,6 +1,7 @@
 #include "read/meanings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/fields.hpp"
 
@@ -24,6 +25,7 @@ std::vector<Meanings::Said> Meanings::said() const {
 std::string Meanings::describe() const {
   std::string text = fmt::format("radius {}", radius.value_or(0));
   for (const auto& one : said()) text += fmt::format(" {}={}", one.what, *one.array);
+  for (const auto* names : {&force, &ends}) text += fmt::format(" {}", fmt::join(*names, ","));
   return text;
 }
 

@@ -15,6 +15,9 @@ struct Meanings {
   std::optional<double> radius;  ///< of all grains alike
   /// Names of arrays; empty: found by its usual names. A vector may be said as its components, `u,v` or `u,v,w`.
   std::string radius_array, diameter_array, velocity, spin, orientation, type, id;
+  /// Of contacts (network.hpp): columns of their strength, one or the components of a vector; of the places of their ends, or of
+  /// the ids of the two grains.
+  std::vector<std::string> force, ends;
 
   struct Said {
     std::string_view what;          ///< chute's name for it

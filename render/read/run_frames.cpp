@@ -108,9 +108,10 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a.size() - i < b.size() - j || (a.size() - i == b.size() - j && a < b);
 }
 
-bool is_vtk(const fs::path& path) {
+/// Tables hold contacts, never grains.
+bool is_frame(const fs::path& path) {
   const auto extension = path.extension();
-  constexpr std::string_view known[] = {".vtp", ".vtu", ".vtk", ".vti", ".vts", ".vtr"};
+  constexpr std::string_view known[] = {".vtp", ".vtu", ".vtk", ".vti", ".vts", ".vtr", ".csv"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
@@ -141,15 +142,16 @@ std::vector<FrameFile> text_frames(const std::vector<fs::path>& files) {
   return last;
 }
 
-std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pattern) {
+std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pattern, bool tables) {
   std::vector<std::string> names, indexes, others;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory.empty() ? "." : directory, error)) {
     const auto name = entry.path().filename().string();
     // LIGGGHTS writes its walls' box beside every dump
     if (name.starts_with('.') || name.find("boundingBox") != std::string::npos) continue;
-    if (fnmatch(pattern.c_str(), name.c_str(), 0) == 0)
-      (is_index_of_parts(name) ? indexes : is_vtk(name) ? names : others).push_back(name);
+    if (fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
+    const bool is_one = is_frame(name) && (tables || fs::path(name).extension() != ".csv");
+    (is_index_of_parts(name) ? indexes : is_one ? names : others).push_back(name);
   }
   if (!indexes.empty()) names = indexes;
   if (names.empty()) {
@@ -165,7 +167,8 @@ std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pa
   return frames;
 }
 
-std::vector<FrameFile> frames_of(const fs::path& source) {
+/// `tables`: CSV files are frames, too.
+std::vector<FrameFile> frames_of(const fs::path& source, bool tables = false) {
   std::error_code error;
   if (fs::is_directory(source, error)) {
     for (const char* index : {"frames.pvd", "cells.pvd"})
@@ -174,8 +177,8 @@ std::vector<FrameFile> frames_of(const fs::path& source) {
       throw InputError(
           source.string() +
           ": the run kept no frames; its scene asks for them with [output] frames = { every = … }");
-    auto frames = files_in(source, "*");
-    if (frames.empty()) frames = files_in(source / "frames", "*");
+    auto frames = files_in(source, "*", tables);
+    if (frames.empty()) frames = files_in(source / "frames", "*", tables);
     return frames;
   }
   if (fs::exists(source, error)) {
@@ -185,7 +188,8 @@ std::vector<FrameFile> frames_of(const fs::path& source) {
     return {FrameFile{source, {}, {}, {}}};
   }
   const auto pattern = source.filename().string();
-  if (pattern.find_first_of("*?[") != std::string::npos) return files_in(source.parent_path(), pattern);
+  if (pattern.find_first_of("*?[") != std::string::npos)
+    return files_in(source.parent_path(), pattern, tables);
   throw InputError(source.string() + ": no such file or directory");
 }
 
@@ -233,6 +237,33 @@ std::vector<FrameFile> find_frames(const fs::path& source) {
   for (auto& frame : frames)
     frame.contacts = find_beside(frame, (fs::path("contacts") / frame.path.filename()).string());
   return frames;
+}
+
+void attach_networks(std::vector<FrameFile>& frames, const fs::path& source) {
+  const auto networks = frames_of(source, true);
+  if (networks.empty()) throw InputError(source.string() + ": no files of contacts");
+  const auto attach = [](FrameFile& frame, const FrameFile& network) {
+    frame.contacts = network.path, frame.contacts_piece = network.piece;
+  };
+  const auto have_times = [](const std::vector<FrameFile>& files) {
+    return std::all_of(files.begin(), files.end(), [](const auto& f) { return f.time.has_value(); });
+  };
+  for (auto& frame : frames) frame.contacts.clear(), frame.contacts_piece.reset();
+  if (have_times(frames) && have_times(networks)) {
+    constexpr double same = 1e-9;  // relative: times as text lose digits
+    std::size_t fit = 0;
+    for (auto& frame : frames)
+      for (const auto& network : networks)
+        if (std::abs(*frame.time - *network.time) <= same * std::max(1.0, std::abs(*frame.time)))
+          attach(frame, network), ++fit;
+    if (fit == 0) throw InputError(source.string() + ": no contacts have the time of a frame");
+    return;
+  }
+  if (frames.size() != networks.size())
+    throw InputError(fmt::format(
+        "{}: {} file{} of contacts for {} frame{}: without times each frame needs its own", source.string(),
+        networks.size(), networks.size() == 1 ? "" : "s", frames.size(), frames.size() == 1 ? "" : "s"));
+  for (std::size_t i = 0; i < frames.size(); ++i) attach(frames[i], networks[i]);
 }
 
 std::vector<FileBytes> read_files(const FrameFile& frame) {

@@ -18,6 +18,7 @@ struct FrameFile {
   std::filesystem::path contacts = {};  ///< the contact network at that time, empty if there is none
   std::optional<TextPiece> piece =
       {};  ///< of a file of text, which may hold several frames: where this one stands
+  std::optional<TextPiece> contacts_piece = {};  ///< the same of the contact network
 };
 
 /// Reads ParaView's time index (.pvd): times and files, sorted by time. Paths are relative to the index. Parts of one time
@@ -38,6 +39,11 @@ std::vector<FrameFile> read_series_index(const std::filesystem::path& path);
 /// a time stand in its order, and a time that comes again replaces the earlier one.
 /// A file contacts/NAME beside frames/NAME is that frame's contact network. InputError if nothing is found.
 std::vector<FrameFile> find_frames(const std::filesystem::path& source);
+
+/// Gives frames the contact networks that `source` names: VTK files, tables (.csv) or dumps of entries, in any of the forms above.
+/// Where frames and networks tell their times before they are read, those of one time belong together; else there must be as
+/// many networks as frames, in their order. InputError if they do not fit.
+void attach_networks(std::vector<FrameFile>& frames, const std::filesystem::path& source);
 
 /// The files of a frame, with all its parts.
 std::vector<FileBytes> read_files(const FrameFile& frame);

@@ -103,13 +103,17 @@ class Finder {
       } else if (name == "TIME") {
         time = number_in(needed("the time"));
         if (!time) fail_before("the time is not a number");
-      } else if (name == "NUMBER OF ATOMS") {
-        count = whole_number(needed("the number of atoms"));
-        if (!count) fail_before("the number of atoms is not a whole number");
+      } else if (name == "NUMBER OF ATOMS" || name == "NUMBER OF ENTRIES") {
+        const bool entries = name == "NUMBER OF ENTRIES";  // contacts, of a dump local
+        const char* what = entries ? "the number of entries" : "the number of atoms";
+        count = whole_number(needed(what));
+        if (!count) fail_before(fmt::format("{} is not a whole number", what));
       } else if (name.starts_with("BOX BOUNDS")) {
         for (int c = 0; c < 3; ++c) needed("an edge of the box");
-      } else if (name == "ATOMS" || name.starts_with("ATOMS ")) {
-        if (!count) fail_before("atoms without their number");
+      } else if (name == "ATOMS" || name.starts_with("ATOMS ") || name == "ENTRIES" ||
+                 name.starts_with("ENTRIES ")) {
+        if (!count)
+          fail_before(name[0] == 'A' ? "atoms without their number" : "entries without their number");
         skip_rows(*count);
         piece.size = lines_.position() - piece.from;
         piece.time = time ? time : step;

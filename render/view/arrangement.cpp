@@ -176,7 +176,7 @@ Arrangement arrange(const FrameStyle& style, const Survey& survey, double aspect
     places.scene = {(width - w) / 2, (height - h) / 2, (width + w) / 2, (height + h) / 2};
     return places;
   }
-  places.has_bar = !survey.field.is_none();
+  places.has_bar = survey.field.has_bar();
   places.has_time = survey.has_times && style.time != "none";
   places.has_gravity = !survey.gravity.isZero(0);
   places.has_scale = true;

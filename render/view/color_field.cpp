@@ -88,6 +88,7 @@ std::vector<double> ColorField::values(const read::GrainFrame& frame) const {
 }
 
 std::string ColorField::title(const std::string& units) const {
+  if (forces) return units == "reduced" ? "$F_n / mg$" : units == "SI" ? "$F_n$ (N)" : "force";
   if (is_none()) return "";
   const auto* field = known(array);
   const bool is_part =
@@ -113,6 +114,11 @@ std::string color_array(std::string_view text) { return std::string(text.substr(
 
 ColorField find_field(std::string_view text, const read::GrainFrame& frame) {
   if (text == "none") return {};
+  if (text == "chains") {
+    ColorField field;
+    field.forces = true;
+    return field;
+  }
   if (text.empty()) {
     if (frame.own && !frame.clock.empty()) return {};  // where no time passes there is no speed
     if (const auto* v = frame.find(fields::velocity.name); v && v->components == 3)

@@ -17,7 +17,11 @@ struct ColorField {
   std::vector<std::string> words =
       {};  ///< of a field of words: those that have a colour. Its values count these
 
+  bool forces = false;  ///< not grains are coloured but chains, by their forces
+
   bool is_none() const { return array.empty(); }
+  /// Colours mean something.
+  bool has_bar() const { return forces || !is_none(); }
   /// One value per grain; not a number for a word that is not among `words`. InputError naming the file if it lacks the array.
   std::vector<double> values(const read::GrainFrame& frame) const;
   /// What the colour bar says, in the plots' TeX: symbol and unit.

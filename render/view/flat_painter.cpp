@@ -44,12 +44,15 @@ class FlatPainter : public Painter {
                studio.palette.ground_alpha) {
     const auto& survey = studio_.survey;
     map_.turn = Eigen::Rotation2Dd(survey.turn);
-    const auto window = seen();
+    const auto window = seen(studio_.style.camera);
     const Point size = window.sizes();
-    furniture = std::make_unique<Furniture>(studio_, size.x() / size.y());
+    // while the camera moves, everything else stands where it stands at its first place
+    const auto& keys = studio_.style.camera_keys;
+    const Point shape = keys.empty() ? size : seen(keys.front().camera).sizes();
+    furniture = std::make_unique<Furniture>(studio_, shape.x() / shape.y());
     map_.rect = furniture->places().scene;
-    map_.scale = map_.rect.width() / size.x();
-    map_.origin = window.min();
+    map_.scale = std::min(map_.rect.width() / size.x(), map_.rect.height() / size.y());
+    map_.origin = window.center() - plot::Point(map_.rect.width(), map_.rect.height()) / (2 * map_.scale);
     // arrows may reach a little beyond what was fitted
     scene_.clip(studio_.style.camera.window
                     ? map_.rect
@@ -64,6 +67,18 @@ class FlatPainter : public Painter {
   }
 
   void paint(const FrameData& data, image::Image& into) override {
+    add_all(data);
+    scene_.draw(into);
+  }
+
+  plot::DisplayList page(const FrameData& data) override {
+    scene_.remember();
+    add_all(data);
+    return scene_.page();
+  }
+
+ private:
+  void add_all(const FrameData& data) {
     scene_.clear();
     const auto colors = studio_.colors(data.frame);
     for (const auto& wall : data.walls) add_wall(wall);
@@ -76,10 +91,8 @@ class FlatPainter : public Painter {
     if (studio_.style.impacts) add_impacts(data.impacts);
     if (studio_.style.chains) add_chains(data.links);
     if (studio_.style.arrows) add_arrows(data.frame);
-    scene_.draw(into);
   }
 
- private:
   Studio studio_;
   OffscreenContext context_;
   FlatScene scene_;
@@ -89,8 +102,7 @@ class FlatPainter : public Painter {
   bool copies() const { return studio_.style.copies && period() > 0; }
 
   /// What the picture shows of the turned plane.
-  Eigen::AlignedBox2d seen() const {
-    const auto& camera = studio_.style.camera;
+  Eigen::AlignedBox2d seen(const Camera& camera) const {
     if (!camera.window && !camera.follow) return studio_.survey.turned;
     const auto& bounds = studio_.survey.bounds;
     const auto window = camera.window.value_or(
@@ -102,11 +114,13 @@ class FlatPainter : public Painter {
   }
 
   void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
-    add_disc(frame, i, color, 0, 1);
+    const auto& style = studio_.style;
+    const double own = studio_.is_bed(frame, i) ? 1 : style.opacity;
+    add_disc(frame, i, color, 0, own);
     if (!copies()) return;
-    for (const double shift : {-period(), period()}) {
-      const double beyond = beyond_domain(studio_.survey.domain, frame.x[i] + shift);
-      if (beyond < 1) add_disc(frame, i, color, shift, copy_alpha * std::min(1.0, 1.15 * (1 - beyond)));
+    for (const double shift : copy_shifts(style, period())) {
+      const double beyond = beyond_domain(studio_.survey.domain, frame.x[i] + shift, style.copy_reach);
+      if (beyond < 1) add_disc(frame, i, color, shift, own * copy_alpha * std::min(1.0, 1.15 * (1 - beyond)));
     }
   }
 
@@ -190,7 +204,7 @@ class FlatPainter : public Painter {
         double dx = link.to.x() - a.x();
         if (L > 0) dx -= L * std::round(dx / L);  // a contact through the periodic ends
         const Bar bar{map_(a.x() + shift, a.y()), map_(a.x() + shift + dx, link.to.y()), width, width,
-                      studio_.palette.chain};
+                      studio_.chain_color(link.force)};
         scene_.add(bar);
         Disc joint;
         joint.radius = width / 2, joint.fill = joint.edge = bar.color;

@@ -106,7 +106,9 @@ struct FlatScene::Inside {
 };
 
 FlatScene::FlatScene(OffscreenContext& context, int width, int height, Rgb ground, double ground_alpha)
-    : inside_(std::make_unique<Inside>(context, width, height)) {
+    : inside_(std::make_unique<Inside>(context, width, height)),
+      ground_(ground),
+      ground_alpha_(ground_alpha) {
   auto& in = *inside_;
   in.corners->SetNumberOfComponents(3);
   in.points->SetData(in.corners);
@@ -147,6 +149,7 @@ FlatScene::FlatScene(OffscreenContext& context, int width, int height, Rgb groun
 FlatScene::~FlatScene() = default;
 
 void FlatScene::clip(const plot::Rect& rect) {
+  clip_ = rect;
   const float edges[4] = {static_cast<float>(rect.left), static_cast<float>(inside_->height - rect.bottom),
                           static_cast<float>(rect.right), static_cast<float>(inside_->height - rect.top)};
   inside_->actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform4f("clip_rect", edges);
@@ -155,12 +158,14 @@ void FlatScene::clip(const plot::Rect& rect) {
 void FlatScene::clear() {
   inside_->places.clear();
   for (auto& values : inside_->values) values.clear();
+  remembered_.clear();
 }
 
 void FlatScene::add(const Disc& disc) {
   const auto f = [](double x) { return static_cast<float>(x); };
   const double x = disc.centre.x(), y = inside_->height - disc.centre.y(), reach = disc.radius + 1;
   if (!inside_->shows(x - reach, x + reach, y - reach, y + reach)) return;
+  if (remembers_) remembered_.emplace_back(disc);
   const float shape[4] = {f(disc.radius), f(disc.edge_width), f(disc.mark.x()), f(-disc.mark.y())};
   const float paint[4] = {f(disc.fill.r), f(disc.fill.g), f(disc.fill.b), f(disc.alpha)};
   const float extra[4] = {f(disc.edge.r), f(disc.edge.g), f(disc.edge.b), f(disc.mark_radius)};
@@ -181,6 +186,7 @@ void FlatScene::add(const Bar& bar) {
   if (!inside_->shows(std::min(a.x(), b.x()) - reach, std::max(a.x(), b.x()) + reach,
                       std::min(a.y(), b.y()) - reach, std::max(a.y(), b.y()) + reach))
     return;
+  if (remembers_) remembered_.emplace_back(bar);
   const float shape[4] = {f(length), f(bar.width_from / 2), f(bar.width_to / 2), -1};
   const float none[4] = {0, 0, 0, 0};
   const float z = inside_->height_of_next();
@@ -191,6 +197,54 @@ void FlatScene::add(const Bar& bar) {
     inside_->corner(a.x() + along * u.x() + across * n.x(), a.y() + along * u.y() + across * n.y(), z,
                     {f(along), f(across)}, shape, paint, none, none);
   }
+}
+
+namespace {
+
+plot::Color color_of(Rgb c, double alpha) { return {c.r, c.g, c.b, alpha}; }
+
+/// The rim lies around the filled inside, not over it, so that both have the disc's alpha.
+void add_curves(plot::DisplayList& list, const Disc& disc) {
+  const double rim = std::min(disc.edge_width, disc.radius);
+  list.fill(plot::Path().circle(disc.centre, disc.radius - rim), color_of(disc.fill, disc.alpha));
+  if (disc.mark_radius > 0)
+    list.fill(plot::Path().circle(disc.centre + disc.mark, disc.mark_radius),
+              color_of(disc.mark_color, disc.alpha));
+  if (rim > 0)
+    list.stroke(plot::Path().circle(disc.centre, disc.radius - rim / 2),
+                {rim, {}, plot::Cap::butt, plot::Join::round}, color_of(disc.edge, disc.alpha));
+}
+
+/// A bar that fades is so many pieces of one alpha each.
+void add_curves(plot::DisplayList& list, const Bar& bar) {
+  const int pieces = bar.alpha_from == bar.alpha_to ? 1 : 6;
+  const plot::Point way = bar.to - bar.from;
+  const plot::Point across = way.norm() > 0 ? way.unitOrthogonal() : plot::Point{0, 0};
+  for (int k = 0; k < pieces; ++k) {
+    const double t0 = static_cast<double>(k) / pieces, t1 = static_cast<double>(k + 1) / pieces;
+    const auto corner = [&](double t, double side) -> plot::Point {
+      return bar.from + t * way + side / 2 * (bar.width_from + t * (bar.width_to - bar.width_from)) * across;
+    };
+    list.fill(plot::Path()
+                  .move(corner(t0, 1))
+                  .line(corner(t1, 1))
+                  .line(corner(t1, -1))
+                  .line(corner(t0, -1))
+                  .close(),
+              color_of(bar.color, bar.alpha_from + (t0 + t1) / 2 * (bar.alpha_to - bar.alpha_from)));
+  }
+}
+
+}  // namespace
+
+plot::DisplayList FlatScene::page() const {
+  plot::DisplayList list;
+  list.width = inside_->width, list.height = inside_->height;
+  list.background = color_of(ground_, ground_alpha_);
+  list.items.emplace_back(plot::ClipBegin{clip_});
+  for (const auto& shape : remembered_) std::visit([&](const auto& one) { add_curves(list, one); }, shape);
+  list.items.emplace_back(plot::ClipEnd{});
+  return list;
 }
 
 void FlatScene::draw(image::Image& into) {

@@ -1,9 +1,10 @@
 #pragma once
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "image/image.hpp"
-#include "plot/geometry.hpp"
+#include "plot/display_list.hpp"
 #include "view/color_map.hpp"
 
 namespace chute::view {
@@ -45,9 +46,19 @@ class FlatScene {
   void clip(const plot::Rect& rect);
   void draw(image::Image& into);
 
+  /// From here on shapes are remembered, for page().
+  void remember() { remembers_ = true; }
+  /// What was added, as curves: one unit is one pixel.
+  plot::DisplayList page() const;
+
  private:
   struct Inside;
   std::unique_ptr<Inside> inside_;
+  bool remembers_ = false;
+  std::vector<std::variant<Disc, Bar>> remembered_;
+  plot::Rect clip_;
+  Rgb ground_;
+  double ground_alpha_;
 };
 
 }  // namespace chute::view

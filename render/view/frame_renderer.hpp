@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "image/image.hpp"
+#include "plot/display_list.hpp"
 #include "view/frame_data.hpp"
 #include "view/frame_style.hpp"
 #include "view/survey.hpp"
@@ -19,6 +20,9 @@ class FrameRenderer {
 
   /// WorkError if the picture came out blank: nothing is in view. The picture is valid until the next call.
   const image::Image& draw(const FrameData& data);
+
+  /// The same for a file: texts, and in the plane grains, as curves. One unit is one pixel.
+  plot::DisplayList page(const FrameData& data);
 
  private:
   struct Inside;

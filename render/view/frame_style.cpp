@@ -33,13 +33,26 @@ void FrameStyle::check() const {
   if (!map.empty()) ColorMap{map};
   if (up) require(up->allFinite() && up->norm() > 0, "up: needs a direction");
   require(!(up && tilt), "tilt turns gravity down, up another direction up: one of them");
-  if (const auto& w = camera.window)
-    require((*w)[0] < (*w)[1] && (*w)[2] < (*w)[3],
-            "camera window X0:X1:Y0:Y1: X0 < X1 and Y0 < Y1 are needed");
-  require(camera.zoom > 0.01 && camera.zoom < 100,
-          fmt::format("camera zoom {}: must be in (0.01, 100)", camera.zoom));
-  require(std::abs(camera.elevation) <= 90,
-          fmt::format("camera elevation {}: must be in [-90, 90]", camera.elevation));
+  const auto check_camera = [&](const Camera& c) {
+    if (const auto& w = c.window)
+      require((*w)[0] < (*w)[1] && (*w)[2] < (*w)[3],
+              "camera window X0:X1:Y0:Y1: X0 < X1 and Y0 < Y1 are needed");
+    require(c.zoom > 0.01 && c.zoom < 100, fmt::format("camera zoom {}: must be in (0.01, 100)", c.zoom));
+    require(std::abs(c.elevation) <= 90,
+            fmt::format("camera elevation {}: must be in [-90, 90]", c.elevation));
+  };
+  check_camera(camera);
+  for (std::size_t k = 0; k < camera_keys.size(); ++k) {
+    const auto& key = camera_keys[k];
+    check_camera(key.camera);
+    require(std::isfinite(key.time) && (k == 0 || key.time > camera_keys[k - 1].time),
+            "camera keys: each needs a time of its own");
+    require(key.camera.window.has_value() == camera_keys[0].camera.window.has_value(),
+            "camera keys: all are parts of a plane, or all are directions in space");
+  }
+  require(opacity > 0 && opacity <= 1, fmt::format("opacity {}: must be in (0, 1]", opacity));
+  require(copy_reach > 0 && copy_reach <= 20,
+          fmt::format("copies {} periods far: must be in (0, 20]", copy_reach));
   for (const Cut& cut : cuts)
     require(cut.axis >= 0 && cut.axis < 3 && std::isfinite(cut.value),
             "cut: needs a finite place on x, y or z");
@@ -65,6 +78,12 @@ std::string FrameStyle::describe() const {
     text += fmt::format(" window={}:{}:{}:{}", (*camera.window)[0], (*camera.window)[1], (*camera.window)[2],
                         (*camera.window)[3]);
   if (camera.all) text += " all";
+  for (const auto& key : camera_keys) {
+    const auto window = key.camera.window.value_or(std::array<double, 4>{});
+    text += fmt::format(" key={}:{}:{}:{}:{}:{}:{}:{}", key.time, key.camera.azimuth, key.camera.elevation,
+                        key.camera.zoom, window[0], window[1], window[2], window[3]);
+  }
+  text += fmt::format(" opacity={} reach={}", opacity, copy_reach);
   if (camera.follow)
     text += camera.follow->id ? fmt::format(" follow={}", *camera.follow->id) : std::string(" follow=mean");
   if (up) text += fmt::format(" up={}:{}:{}", up->x(), up->y(), up->z());

@@ -30,6 +30,12 @@ struct Camera {
   std::optional<Follow> follow;
 };
 
+/// Where the camera is at some time; between two of these it moves smoothly (camera_path.hpp).
+struct CameraKey {
+  double time = 0;  ///< of the frames
+  Camera camera;
+};
+
 /// A half space in which nothing is drawn: what lies beyond `value` on an axis of the files.
 struct Cut {
   int axis = 0;
@@ -55,8 +61,10 @@ struct FrameStyle {
   bool arrows = false;               ///< velocity arrows
   bool chains = false;               ///< contact forces as lines, wide where the force is large
   bool copies = false;               ///< faded copies beyond the periodic ends
+  double copy_reach = 0.16;          ///< so many periods far to each side
   bool impacts = false;              ///< marks where grains of the bed were hit so far
   bool occlusion = false;            ///< 3D: ambient occlusion
+  double opacity = 1;                ///< of grains that move
   /// 3D: a dark line inside the rim of every grain; shadows on a plane below; edges of the periodic box, or of the box
   /// of all grains. Not told: not drawn, but see furnish_space in survey.hpp.
   std::optional<bool> outlines, floor, box;
@@ -71,6 +79,10 @@ struct FrameStyle {
   int trail = 0;          ///< earlier frames whose positions are drawn as a trail
   std::vector<Cut> cuts;  ///< grains whose centres lie in one of them are left out
   Camera camera;
+  std::vector<CameraKey> camera_keys;  ///< by time; empty: the camera stands, or follows
+
+  /// The forces of chains are what colours tell, and grains are plain.
+  bool colors_forces() const { return color == "chains"; }
 
   /// InputError if a value is out of bounds (sizes from 64 to 8192, range LOW < HIGH …).
   void check() const;

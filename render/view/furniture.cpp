@@ -8,6 +8,7 @@
 
 #include "plot/draw.hpp"
 #include "plot/mathtext.hpp"
+#include "plot/placed.hpp"
 #include "plot/scale.hpp"
 #include "view/lay_over.hpp"
 
@@ -139,7 +140,7 @@ Furniture::Furniture(const Studio& studio, double aspect)
       palette_(studio.palette),
       title_(survey_.field.title(survey_.units)) {
   double title = 0, labels = 0, kinds = 0;
-  if (!survey_.field.is_none()) {
+  if (survey_.field.has_bar()) {
     constexpr double size = 100;  // any: widths in em are asked for
     const auto measure = [&](const std::string& label) {
       labels = std::max(labels, plot::set_text(label, small * size).width / size);
@@ -300,7 +301,7 @@ void Furniture::draw_key(DisplayList& list, double arrow_pixels, double chain_pi
     const Key& key = keys[i];
     const Point at{ends[i]->x() - key.text.width, ends[i]->y()},
         to{at.x() - 0.5 * em, at.y() - 0.3 * small * em}, from{to.x() - key.length, to.y()};
-    const Rgb c = palette_.chain;
+    const Rgb c = key.color;
     if (key.is_arrow)
       draw_arrow(list, from, to, key.thickness, 0.55 * em, ink());
     else
@@ -310,13 +311,16 @@ void Furniture::draw_key(DisplayList& list, double arrow_pixels, double chain_pi
 }
 
 Furniture::Key Furniture::force_key(double chain_pixels) const {
-  const double em = places_.em, force = plain_below(survey_.force);
+  // a chain that would be thicker than the line of text is no key: a weaker one is shown then
+  constexpr double thickest = 1.1;  // em
+  const double em = places_.em,
+               force = plain_below(survey_.force * std::min(1.0, thickest * em / chain_pixels));
   // m times g, not milligrams
   const auto unit = survey_.units == "reduced" ? fmt::format("$F_n = {:g}\\,m\\,g$", force)
                     : survey_.units == "SI"    ? fmt::format("$F_n = {:g}\\,\\mathrm{{N}}$", force)
                                                : fmt::format("$F_n = {:g}$", force);
   return {2 * em, std::max(0.5, chain_pixels * force / survey_.force), false,
-          plot::set_text(unit, small * em)};
+          plot::set_text(unit, small * em), studio_.chain_color(force)};
 }
 
 Furniture::Key Furniture::speed_key(double arrow_pixels) const {
@@ -325,7 +329,8 @@ Furniture::Key Furniture::speed_key(double arrow_pixels) const {
   const auto unit = survey_.units == "reduced" ? fmt::format("$v = {:g}\\,\\sqrt{{gd}}$", speed)
                     : survey_.units == "SI"    ? fmt::format("$v = {:g}\\,\\mathrm{{m/s}}$", speed)
                                                : fmt::format("$v = {:g}$", speed);
-  return {speed * arrow_pixels, std::max(1.5, 0.085 * em), true, plot::set_text(unit, small * em)};
+  return {speed * arrow_pixels, std::max(1.5, 0.085 * em), true, plot::set_text(unit, small * em),
+          palette_.ink};
 }
 
 void Furniture::draw_gravity(DisplayList& list, const Directions& directions) const {
@@ -388,6 +393,7 @@ void Furniture::stand(const ScaleBar& scale, const Directions& directions, doubl
   if (places_.has_key) draw_key(list, arrow_pixels, chain_pixels);
   if (places_.has_gravity) draw_gravity(list, directions);
   standing_ = plot::rasterise_by_cairo(list, pixels);
+  standing_list_ = std::move(list);
   if (plot_) plot_->stand(standing_);
 }
 
@@ -403,6 +409,14 @@ void Furniture::put_on(image::Image& frame, double time) const {
   plot::draw_text(list, text, {places_.time.x() - whole.x(), above + places_.time.y() - whole.y()}, ink());
   lay_over(frame, plot::rasterise_by_cairo(list, pixels), static_cast<int>(whole.x()),
            static_cast<int>(whole.y() - above));
+}
+
+void Furniture::add_to(plot::DisplayList& page, double time) const {
+  if (!style_.furniture) return;
+  plot::place(page, standing_list_, 1, {0, 0});
+  if (plot_) plot_->add_to(page, time);
+  if (places_.has_time)
+    plot::draw_text(page, plot::set_text(time_text(style_, survey_, time), places_.em), places_.time, ink());
 }
 
 }  // namespace chute::view

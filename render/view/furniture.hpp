@@ -43,6 +43,8 @@ class Furniture {
 
   /// Puts everything on a frame whose time is `time`.
   void put_on(image::Image& frame, double time) const;
+  /// The same on a page whose unit is a pixel.
+  void add_to(plot::DisplayList& page, double time) const;
 
  private:
   const Studio& studio_;
@@ -52,6 +54,7 @@ class Furniture {
   std::string title_;
   Arrangement places_;
   std::optional<SeriesPlot> plot_;
+  plot::DisplayList standing_list_;
   image::Image standing_;
 
   void draw_headline(plot::DisplayList& list) const;
@@ -67,6 +70,7 @@ class Furniture {
     double length, thickness;
     bool is_arrow;
     plot::TextBox text;
+    Rgb color;
     double width(double em) const { return length + 0.5 * em + text.width; }
   };
   Key speed_key(double arrow_pixels) const;

@@ -5,6 +5,16 @@
 
 namespace chute::view {
 
+void divide_by_alpha(image::Image& picture) {
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+    const unsigned alpha = picture.rgba[i + 3];
+    if (alpha == 0 || alpha == 255) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.rgba[i + c] =
+          static_cast<std::uint8_t>(std::min(255u, (picture.rgba[i + c] * 255u + alpha / 2) / alpha));
+  }
+}
+
 void lay_over(image::Image& bottom, const image::Image& top, int left, int above) {
   for (int y = std::max(0, -above); y < top.height && y + above < bottom.height; ++y)
     for (int x = std::max(0, -left); x < top.width && x + left < bottom.width; ++x) {

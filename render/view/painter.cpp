@@ -21,7 +21,7 @@ std::string map_name(const FrameStyle& style, const Survey& survey) {
 Studio::Studio(const FrameStyle& s, const Survey& found)
     : style(s), survey(found), palette(palette_of(s.background)), map(map_name(s, found)) {
   style.check();
-  if (style.chains) map = map.faded(palette.ground, faded_by_chains);
+  if (style.chains && !survey.field.forces && !is_glassy()) map = map.faded(palette.ground, faded_by_chains);
 }
 
 std::vector<Rgb> Studio::colors(const read::GrainFrame& frame) const {
@@ -47,7 +47,12 @@ std::vector<Rgb> Studio::colors(const read::GrainFrame& frame) const {
 Rgb Studio::kind_color(std::ptrdiff_t kind) const {
   const auto& colors = kind_colors(style.background);
   const Rgb color = colors[static_cast<std::size_t>(kind) % colors.size()];
-  return style.chains ? mix(color, palette.ground, faded_by_chains) : color;
+  return style.chains && !is_glassy() ? mix(color, palette.ground, faded_by_chains) : color;
+}
+
+Rgb Studio::chain_color(double force) const {
+  if (!survey.field.forces) return palette.chain;
+  return map.at((force - survey.low) / (survey.high - survey.low));
 }
 
 bool Studio::is_cut(const Eigen::Vector3d& place) const {

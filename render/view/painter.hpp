@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "plot/display_list.hpp"
 #include "view/frame_data.hpp"
 #include "view/frame_style.hpp"
 #include "view/survey.hpp"
@@ -16,6 +17,8 @@ class Painter {
  public:
   virtual ~Painter() = default;
   virtual void paint(const FrameData& data, image::Image& into) = 0;
+  /// The same for a file: curves where there are some, else pixels. One unit is one pixel.
+  virtual plot::DisplayList page(const FrameData& data) = 0;
 };
 
 /// Forces beyond nearly the largest are drawn wider only up to this, so that a single one does not fill the picture.
@@ -36,6 +39,9 @@ struct Studio {
     return survey.has_fixed && frame.is_fixed(grain);
   }
   Rgb kind_color(std::ptrdiff_t kind) const;  ///< of survey.categories
+  Rgb chain_color(double force) const;
+  /// Grains that are seen through need not shrink or fade for chains to show.
+  bool is_glassy() const { return style.opacity < 1; }
   /// Width of the chain of nearly the largest force, in the files' unit.
   double widest_chain() const { return 0.42 * survey.diameter; }
   /// Length of a velocity arrow for speed 1, in the files' unit.

@@ -188,13 +188,20 @@ RenderReport render_cells(const RenderJob& job, const std::vector<read::FrameFil
   for (const auto number : numbers) {
     auto figure = figure_of(load(number, look.field), look, style, dpi);
     keep_shape(figure, look);
-    const auto picture = plot::rasterise(plot::lay_out(figure).list, dpi);
+    const auto list = plot::lay_out(figure).list;
+    ++report.drawn;
+    if (job.progress) job.progress("drawing", static_cast<std::size_t>(report.drawn), numbers.size());
+    if (job.format != StillFormat::png) {
+      const bool is_pdf = job.format == StillFormat::pdf;
+      const auto path = job.output / fmt::format("{:06}.{}", number, is_pdf ? "pdf" : "svg");
+      is_pdf ? plot::draw_pdf(list, path) : plot::draw_svg(list, path);
+      continue;
+    }
+    const auto picture = plot::rasterise(list, dpi);
     if (!job.output.empty())
       image::write_png(job.output / fmt::format("{:06}.png", number), picture,
                        {{"Software", "chute"}, {"Source", frames[number].path.filename().string()}});
     if (movie) movie->add(picture);
-    ++report.drawn;
-    if (job.progress) job.progress("drawing", static_cast<std::size_t>(report.drawn), numbers.size());
   }
   if (movie) movie->finish();
   return report;

@@ -13,11 +13,14 @@
 #include "common/fields.hpp"
 #include "common/hash.hpp"
 #include "image/png.hpp"
+#include "plot/draw.hpp"
+#include "plot/placed.hpp"
 #include "read/run_frames.hpp"
 #include "read/surroundings.hpp"
 #include "view/between.hpp"
 #include "view/crew.hpp"
 #include "view/frame_renderer.hpp"
+#include "view/idle_options.hpp"
 #include "view/movie.hpp"
 #include "view/render_cells.hpp"
 
@@ -82,7 +85,7 @@ std::vector<std::string> wanted_arrays(const FrameStyle& style, bool by_id) {
   std::vector<std::string> names{color_array(style.color)};
   if (style.color.empty() || style.arrows) names.emplace_back(fields::velocity.name);
   if (style.spin) names.emplace_back(fields::angle.name), names.emplace_back(fields::orientation.name);
-  if (style.trail || style.impacts || by_id) names.emplace_back(fields::id.name);
+  if (style.trail || style.impacts || style.chains || by_id) names.emplace_back(fields::id.name);
   return names;
 }
 
@@ -121,6 +124,30 @@ std::vector<Moment> moments_of(const std::vector<std::size_t>& numbers, const Su
   return moments;
 }
 
+/// Pictures between frames need more digits of the time than frames do: as many as tell two of them apart, up to four.
+int decimals_between(const Survey& survey, double step) {
+  constexpr int most = 4;
+  const int needed = static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
+  return std::max(survey.time_decimals, std::clamp(needed, 0, most));
+}
+
+fs::path picture_path(const RenderJob& job, std::size_t number) {
+  constexpr const char* extensions[] = {"png", "pdf", "svg"};
+  return job.output / fmt::format("{:06}.{}", number, extensions[static_cast<int>(job.format)]);
+}
+
+/// A page whose unit is a pixel as a file in which that is what `dpi` says.
+void write_page(const plot::DisplayList& page, const RenderJob& job, const fs::path& path,
+                const std::string& source) {
+  const double scale = 72 / (job.dpi > 0 ? job.dpi : usual_dpi);
+  plot::DisplayList list;
+  list.width = scale * page.width, list.height = scale * page.height, list.background = page.background;
+  plot::place(list, page, scale, {0, 0});
+  const plot::Metadata metadata{{"Title", job.style.title}, {"Creator", "chute"}, {"Subject", source}};
+  job.format == StillFormat::pdf ? plot::draw_pdf(list, path, metadata)
+                                 : plot::draw_svg(list, path, metadata);
+}
+
 /// Draws single frames of a run; one per process.
 class FrameDrawer {
  public:
@@ -150,16 +177,16 @@ class FrameDrawer {
     const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
     for (std::size_t i = oldest; i < number; ++i) load(i);
     auto files = read::read_files(file);
-    const std::string network =
-        job_.style.chains && !file.contacts.empty() ? read_file(file.contacts) : std::string();
+    const bool has_network = job_.style.chains && !file.contacts.empty();
+    read::FileBytes network;
+    if (has_network) network = read::network_bytes(file);
 
-    const fs::path picture =
-        job_.output.empty() ? fs::path() : job_.output / fmt::format("{:06}.png", number);
+    const fs::path picture = job_.output.empty() ? fs::path() : picture_path(job_, number);
     Hash hash;
     add_part(hash, common_);
-    add_part(hash, fmt::format("{}", survey_.times[number]));
+    add_part(hash, fmt::format("{} {}", survey_.times[number], job_.dpi));
     for (const auto& part : files) add_part(hash, part.bytes);
-    add_part(hash, network);
+    add_part(hash, network.bytes);
     for (std::size_t i = oldest; i < number; ++i) add_part(hash, earlier_[i - first_earlier_].hash);
     const std::size_t impacts = beside_.until(survey_.times[number]);
     add_part(hash, fmt::format("impacts {}", impacts));
@@ -167,7 +194,8 @@ class FrameDrawer {
       add_part(hash,
                fmt::format("{}", fmt::join(survey_.path[number].begin(), survey_.path[number].end(), " ")));
     const auto drawn_hash = hash.hex();
-    if (!picture.empty() && is_drawn(picture, drawn_hash)) {
+    const bool is_page = job_.format != StillFormat::png;
+    if (!picture.empty() && !is_page && is_drawn(picture, drawn_hash)) {
       if (wanted) into = image::read_png(picture);
       return false;
     }
@@ -175,13 +203,13 @@ class FrameDrawer {
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
     auto frame = read::parse_frame(std::move(files), job_.meanings, wanted_);
     double time = survey_.times[number];
+    std::vector<read::ForceLink> links;
+    if (has_network) links = read::parse_network(std::move(network), job_.meanings, &frame);
     if (moment.part > 0) {
       frame = between(frame, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_),
                       moment.part);
       time += moment.part * (survey_.times[number + 1] - time);
     }
-    const auto links =
-        network.empty() ? std::vector<read::ForceLink>() : read::parse_network(network, file.contacts);
     std::vector<const read::GrainFrame*> trail;
     for (std::size_t i = oldest; i < number; ++i) trail.push_back(&earlier_[i - first_earlier_].frame);
     FrameData data{.frame = frame, .time = time, .links = links, .earlier = trail, .walls = beside_.walls};
@@ -190,11 +218,15 @@ class FrameDrawer {
       data.focus = survey_.path[number];
       if (moment.part > 0) data.focus += moment.part * (survey_.path[number + 1] - survey_.path[number]);
     }
+    if (is_page) {
+      write_page(renderer_->page(data), job_, picture, file.path.filename().string());
+      return true;
+    }
     const auto& drawn = renderer_->draw(data);
     if (!picture.empty()) {
       const image::Text text{
           {"Software", "chute"}, {"Source", file.path.filename().string()}, {drawn_from, drawn_hash}};
-      write_atomically(picture, image::encode_png(drawn, text), Flush::later);
+      write_atomically(picture, image::encode_png(drawn, text, image::fast_level, job_.dpi), Flush::later);
     }
     if (wanted) into = drawn;
     return true;
@@ -230,95 +262,9 @@ class FrameDrawer {
   }
 };
 
-/// Options that would do nothing are refused: whoever asks for them expects something else.
-void check_options(const FrameStyle& style, const Survey& survey) {
-  struct Option {
-    bool given;
-    const char* name;
-  };
-  const bool flat = survey.dimensions == 2;
-  const Camera usual;
-  const auto refuse = [](bool given, const char* option, const char* why) {
-    if (given) throw InputError(fmt::format("{} does nothing here: {}", option, why));
-  };
-  const Option in_space[] = {
-      {style.occlusion, "--occlusion"},
-      {style.outlines.has_value(), "--outlines"},
-      {style.floor.has_value(), "--floor"},
-      {style.box.has_value(), "--box"},
-      {style.camera.azimuth != usual.azimuth || style.camera.elevation != usual.elevation ||
-           style.camera.zoom != usual.zoom,
-       "--camera AZIMUTH:ELEVATION[:ZOOM]"}};
-  const Option in_plane[] = {{style.camera.window.has_value(), "--camera X0:X1:Y0:Y1"}};
-  const std::span<const Option> wrong =
-      flat ? std::span<const Option>(in_space) : std::span<const Option>(in_plane);
-  for (const Option& option : wrong)
-    if (option.given)
-      throw InputError(fmt::format("{} does nothing here: these grains lie in {}", option.name,
-                                   flat ? "a plane" : "space"));
-  constexpr const char* in_a_plane = "these grains lie in a plane";
-  refuse(flat && style.up && style.up->head<2>().isZero(0), "--up along z", in_a_plane);
-  refuse(style.copies && !(survey.domain.sizes()[0] > 0), "--copies", "the frames name no period along x");
-  for (const Cut& cut : style.cuts) refuse(flat && cut.axis == 2, "--cut along z", in_a_plane);
-  refuse(style.arrows && !(survey.speed > 0), "--arrows", "the frames tell no velocities, or nothing moves");
-  for (const Option& option :
-       {Option{style.range.has_value(), "--range"}, Option{!style.map.empty(), "--colormap"}}) {
-    refuse(option.given && survey.field.is_none(), option.name, "nothing is coloured");
-    refuse(option.given && !survey.categories.empty(), option.name, "kinds have colours of their own");
-  }
-}
-
-/// What does nothing in this run, but may do something in another of the same command.
-std::vector<std::string> idle_options(const FrameStyle& style, const Survey& survey) {
-  std::vector<std::string> notes;
-  if (style.tilt && survey.slope == 0)
-    notes.emplace_back("--tilt does nothing here: gravity points down as it is");
-  if (style.trail > 0 && survey.times.size() == 1)
-    notes.emplace_back("--trails does nothing here: there is one frame");
-  return notes;
-}
-
-/// Maps of cells have axes and a bar, and of all that tells how grains look nothing but the colours' range.
-void check_map_options(const FrameStyle& style, bool plot) {
-  struct Option {
-    bool given;
-    const char* name;
-  };
-  const Camera usual;
-  const auto& c = style.camera;
-  const bool camera = c.window || c.all || c.follow || c.azimuth != usual.azimuth ||
-                      c.elevation != usual.elevation || c.zoom != usual.zoom;
-  for (const Option& option : {Option{camera, "--camera"},
-                               Option{style.tilt, "--tilt"},
-                               Option{style.up.has_value(), "--up"},
-                               Option{style.arrows, "--arrows"},
-                               Option{style.chains, "--chains"},
-                               Option{style.copies, "--copies"},
-                               Option{style.impacts, "--impacts"},
-                               Option{style.occlusion, "--occlusion"},
-                               Option{style.outlines.has_value(), "--outlines"},
-                               Option{style.floor.has_value(), "--floor"},
-                               Option{style.box.has_value(), "--box"},
-                               Option{style.trail > 0, "--trails"},
-                               Option{!style.cuts.empty(), "--cut"},
-                               Option{!style.species.empty(), "--species"},
-                               Option{!style.spin, "--no-spin"},
-                               Option{!style.furniture, "--bare"},
-                               Option{!style.title.empty(), "--title"},
-                               Option{!style.time.empty(), "--time"},
-                               Option{style.font_size > 0, "--font-size"},
-                               Option{plot, "--plot"}})
-    if (option.given)
-      throw InputError(fmt::format("{} does nothing here: these are maps of cells, no grains", option.name));
-  if (!style.map.empty() && style.map != "viridis" && style.map != "rdbu")
-    throw InputError(
-        fmt::format("--colormap {} does nothing here: maps of cells have viridis or rdbu", style.map));
-  if (style.background == Background::transparent)
-    throw InputError("--background transparent does nothing here: maps of cells have white or dark ground");
-}
-
 /// How time in the movie goes against the time of the frames: "a second of the movie is 0.2 s: 5 times slower than true".
-std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& numbers, double rate) {
+std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& numbers, double rate,
+                        double speed) {
   if (!survey.has_times || numbers.size() < 2) return "";
   const auto step = [&](std::size_t i) { return survey.times[numbers[i + 1]] - survey.times[numbers[i]]; };
   double least = step(0), most = step(0);
@@ -326,7 +272,7 @@ std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& nu
     least = std::min(least, step(i)), most = std::max(most, step(i));
   const double mean = (survey.times[numbers.back()] - survey.times[numbers.front()]) /
                       static_cast<double>(numbers.size() - 1);
-  const double second = mean * rate;
+  const double second = speed > 0 ? speed : mean * rate;
   if (!(second > 0) || !std::isfinite(second)) return "";
   std::string text = fmt::format("a second of the movie is {:.3g}", second);
   if (!survey.clock.empty()) {
@@ -340,7 +286,7 @@ std::string movie_clock(const Survey& survey, const std::vector<std::size_t>& nu
     text += survey.units == "reduced" ? " sqrt(d/g)" : " in the files' unit of time";
   }
   constexpr double even = 0.01;  // of the mean: what rounded times differ by
-  if (most - least > even * mean)
+  if (speed == 0 && most - least > even * mean)
     text += fmt::format("; frames are {:.3g} to {:.3g} apart and shown equally long", least, most);
   return text;
 }
@@ -364,6 +310,10 @@ RenderReport render_run(const RenderJob& asked) {
     throw InputError("neither a folder for pictures nor a movie is asked for");
   if (!(job.frames_per_second > 0 && job.frames_per_second <= 1000))
     throw InputError(fmt::format("{} frames per second: must be in (0, 1000]", job.frames_per_second));
+  if (job.format != StillFormat::png && !job.movie.empty())
+    throw InputError("pictures that are kept beside a movie are its frames, as PNG");
+  if (job.dpi != 0 && !(job.dpi >= 10 && job.dpi <= 10000))
+    throw InputError(fmt::format("{} dpi: must be in [10, 10000]", job.dpi));
   if (job.speed != 0 && !(job.speed > 0 && std::isfinite(job.speed)))
     throw InputError(fmt::format("speed {}: must be > 0", job.speed));
   if (job.speed != 0 && (job.movie.empty() || !job.output.empty()))
@@ -374,7 +324,8 @@ RenderReport render_run(const RenderJob& asked) {
     throw InputError(fmt::format("radius {}: must be > 0", *r));
   const bool is_gif = !job.movie.empty() && Movie::kind_of(job.movie) == Movie::Kind::gif;
 
-  const auto frames = read::find_frames(job.source);
+  auto frames = read::find_frames(job.source);
+  if (!job.contacts.empty()) read::attach_networks(frames, job.contacts);
   const auto numbers = frame_numbers(job.frames, frames.size());
   if (are_cells(frames) && job.speed > 0)
     throw InputError("--speed does nothing here: maps are not drawn between their times");
@@ -384,8 +335,9 @@ RenderReport render_run(const RenderJob& asked) {
   }
   if (job.style.chains &&
       std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.contacts.empty(); }))
-    throw InputError(job.source.string() +
-                     ": the run kept no contact networks, which force chains are drawn from");
+    throw InputError(
+        job.source.string() +
+        ": no contact networks are there, which force chains are drawn from; --contacts names files of them");
   const auto tell = [&](const char* what, std::size_t done, std::size_t all) {
     if (job.progress) job.progress(what, done, all);
   };
@@ -394,9 +346,12 @@ RenderReport render_run(const RenderJob& asked) {
     series = read_time_series(job.series.empty() ? job.source / "series.csv" : job.series, job.plot);
   Survey found = survey(frames, job.style, job.meanings, job.jobs,
                         [&](std::size_t done) { tell("reading", done, frames.size()); });
+  if (!job.style.camera_keys.empty() && !found.has_times)
+    throw InputError(job.source.string() + ": the frames have no times, which --camera-at needs");
   if (job.speed > 0 && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which --speed needs");
   const auto moments = moments_of(numbers, found, job);
+  if (job.speed > 0) found.time_decimals = decimals_between(found, job.speed / job.frames_per_second);
   if (!series.empty() && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
   found.series = std::move(series);
@@ -412,20 +367,20 @@ RenderReport render_run(const RenderJob& asked) {
   // Pictures are flushed to the disk at the end, all at once: one that a power cut spoilt would be drawn again.
   const auto flush = [&] {
     if (job.output.empty()) return;
-    for (const auto number : numbers) flush_file(job.output / fmt::format("{:06}.png", number));
+    for (const auto number : numbers) flush_file(picture_path(job, number));
     flush_folder(job.output);
   };
 
   RenderReport report;
   report.left_out = found.left_out;
   report.notes = idle_options(job.style, found);
-  if (!job.style.camera.window && !job.style.camera.follow)
+  if (!job.style.camera.window && !job.style.camera.follow && job.style.camera_keys.empty())
     report.outside = found.outside, report.about = found.about;
   for (const auto& frame : frames)
     if (frame.piece && !frame.piece->cut_after.empty())
       report.notes.push_back(frame.piece->cut_after + "; that frame is left out");
   if (!job.movie.empty())
-    if (auto note = movie_clock(found, numbers, job.frames_per_second); !note.empty())
+    if (auto note = movie_clock(found, numbers, job.frames_per_second, job.speed); !note.empty())
       report.notes.push_back(std::move(note));
   const auto& style = job.style;
   const auto draw = [&](const std::vector<Moment>& which, bool wanted, const Take& take) {

@@ -18,23 +18,33 @@ struct FrameRange {
   std::size_t step = 1;
 };
 
+/// What files pictures become. In PDF and SVG texts are texts, and grains in the plane are curves.
+enum class StillFormat { png, pdf, svg };
+
 /// What is to be drawn of a run.
 struct RenderJob {
   std::filesystem::path source;  ///< see read::find_frames
   FrameStyle style;
   std::filesystem::path output;  ///< folder for NNNNNN.png; empty: no pictures are kept
-  std::filesystem::path movie;   ///< .mp4, .webm, .mov, .gif or .png; empty: none
+  StillFormat format = StillFormat::png;
+  double dpi = 0;  ///< pixels of an inch in print; 0: PNG files do not say it, pages have usual_dpi
+  std::filesystem::path movie;  ///< .mp4, .webm, .mov, .gif or .png; empty: none
   double frames_per_second = 25;
   double speed =
       0;  ///< of a movie: simulated time in a second of it, drawn between frames where needed; 0: a frame a picture
   FrameRange frames;
-  int jobs = 1;                   ///< processes that draw at once
-  read::Meanings meanings;        ///< what arrays of other programs' files are
+  int jobs = 1;  ///< processes that draw at once
+  std::filesystem::path
+      contacts;             ///< networks of another program (read::attach_networks); empty: the run's own
+  read::Meanings meanings;  ///< what arrays of other programs' files are
   std::vector<std::string> plot;  ///< columns of `series` that are plotted against time beside the grains
   std::filesystem::path series;   ///< empty: the run's series.csv
   /// Hears what is being done ("reading", "drawing"), how much of it is done and how much there is.
   std::function<void(const char*, std::size_t, std::size_t)> progress;
 };
+
+/// Of a page: a pixel of the web.
+inline constexpr double usual_dpi = 96;
 
 struct RenderReport {
   std::size_t drawn = 0;

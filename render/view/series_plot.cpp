@@ -4,7 +4,9 @@
 
 #include "common/error.hpp"
 #include "plot/draw.hpp"
+#include "plot/extents.hpp"
 #include "plot/layout.hpp"
+#include "plot/placed.hpp"
 #include "view/lay_over.hpp"
 
 namespace chute::view {
@@ -68,6 +70,16 @@ void SeriesPlot::lay_over_place(image::Image& picture, const plot::DisplayList& 
 void SeriesPlot::stand(image::Image& picture) const { lay_over_place(picture, standing_); }
 
 void SeriesPlot::put_on(image::Image& picture, double time) const {
+  const auto list = curves_until(time);
+  if (!list.items.empty()) lay_over_place(picture, list);
+}
+
+void SeriesPlot::add_to(plot::DisplayList& page, double time) const {
+  for (const auto& list : {standing_, curves_until(time)})
+    plot::place(page, list, scale_, {place_.left, place_.top});
+}
+
+plot::DisplayList SeriesPlot::curves_until(double time) const {
   const auto& look = plot::look_of(figure_.style);
   plot::DisplayList list;
   list.width = standing_.width, list.height = standing_.height;
@@ -95,7 +107,7 @@ void SeriesPlot::put_on(image::Image& picture, double time) const {
                 ink.color);
     if (joined) list.fill(plot::Path().circle(last, 0.65 * look.marker_size), ink.color);
   }
-  if (!list.items.empty()) lay_over_place(picture, list);
+  return list;
 }
 
 }  // namespace chute::view

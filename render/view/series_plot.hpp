@@ -19,6 +19,8 @@ class SeriesPlot {
   void stand(image::Image& picture) const;
   /// The curves up to `time`.
   void put_on(image::Image& frame, double time) const;
+  /// Both on a page whose unit is a pixel.
+  void add_to(plot::DisplayList& page, double time) const;
 
  private:
   const TimeSeries& series_;
@@ -29,6 +31,7 @@ class SeriesPlot {
   plot::DisplayList standing_;
   plot::Frame frame_;
 
+  plot::DisplayList curves_until(double time) const;
   void lay_over_place(image::Image& picture, const plot::DisplayList& list) const;
 };
 

@@ -5,6 +5,7 @@
 
 #include "common/fields.hpp"
 #include "view/furniture.hpp"
+#include "view/lay_over.hpp"
 #include "view/painter.hpp"
 #include "view/solid_scene.hpp"
 
@@ -29,22 +30,21 @@ class SolidPainter : public Painter {
     const auto& survey = studio_.survey;
     const auto& camera = studio_.style.camera;
     normal_ = survey.up;
-    // the direction from which x points to the right, or y if x is up
-    const Vector3d along = survey.up_axis == 0 ? Vector3d::UnitY() : Vector3d::UnitX();
-    const Vector3d right = (along - along.dot(normal_) * normal_).normalized(), side = right.cross(normal_);
     const double strength = survey.gravity.norm();
     const Vector3d down = strength > 0 ? Vector3d(survey.gravity / strength) : Vector3d(Vector3d::Zero());
-    const double azimuth = camera.azimuth * std::numbers::pi / 180,
-                 elevation = camera.elevation * std::numbers::pi / 180;
-    const Vector3d towards = std::cos(elevation) * (std::sin(azimuth) * right + std::cos(azimuth) * side) +
-                             std::sin(elevation) * normal_;
-    const auto axes = Eye::axes_of(towards, studio_.style.tilt && strength > 0 ? Vector3d(-down) : normal_);
+    const auto axes = axes_at(camera);
 
     box_ = survey.bounds;
     if (has_box()) box_.extend(box_of_space(survey));  // it is to be seen whole
-    if (copies()) box_.min().x() -= copy_reach * period(), box_.max().x() += copy_reach * period();
-    furniture = std::make_unique<Furniture>(studio_, Eye::aspect(box_, axes));
+    const double reach = studio_.style.copy_reach * period();
+    if (copies()) box_.min().x() -= reach, box_.max().x() += reach;
+    // while the camera moves, everything else stands where it stands at its first place
+    const auto& keys = studio_.style.camera_keys;
+    furniture = std::make_unique<Furniture>(
+        studio_, Eye::aspect(box_, keys.empty() ? axes : axes_at(keys.front().camera)));
     eye_ = Eye::on_box(box_, axes, furniture->places().scene, camera.zoom);
+    scene_place_ = furniture->places().scene;
+    if (!keys.empty()) keep_distance();
     scene_.look(eye_);
 
     Directions directions;
@@ -58,7 +58,7 @@ class SolidPainter : public Painter {
   }
 
   void paint(const FrameData& data, image::Image& into) override {
-    content_ = {};
+    content_ = {}, glassy_.clear();
     const auto& frame = data.frame;
     const auto colors = studio_.colors(frame);
     const auto* orientation = frame.find(fields::orientation.name);
@@ -74,7 +74,20 @@ class SolidPainter : public Painter {
     if (studio_.style.floor.value_or(false)) add_floor();
     for (const auto& wall : data.walls) add_wall(wall);
     scene_.draw(content_, into);
+    if (studio_.is_glassy()) show_behind(into);
     if (overflows() && studio_.style.furniture) keep_inside(into);
+  }
+
+  plot::DisplayList page(const FrameData& data) override {
+    plot::PictureItem item;
+    paint(data, item.picture);
+    divide_by_alpha(item.picture);
+    item.rect = {0, 0, static_cast<double>(item.picture.width), static_cast<double>(item.picture.height)};
+    plot::DisplayList list;
+    list.width = item.rect.right, list.height = item.rect.bottom;
+    list.background.a = 0;  // the pixels have the ground
+    list.items.emplace_back(std::move(item));
+    return list;
   }
 
  private:
@@ -83,9 +96,47 @@ class SolidPainter : public Painter {
   Eye eye_;
   Vector3d normal_;  ///< of the incline
   Eigen::AlignedBox3d box_;
-  plot::Rect shown_;  ///< pixels
+  plot::Rect shown_, scene_place_;  ///< pixels
   SolidContent content_;
+  std::vector<bool> glassy_;  ///< of each ball: it is seen through
+  image::Image behind_;
   const read::PointArray* orientation_ = nullptr;
+
+  /// The eye's axes: azimuth counts from the direction from which x points to the right, or y if x is up.
+  Eigen::Matrix3d axes_at(const Camera& camera) const {
+    const auto& survey = studio_.survey;
+    const Vector3d along = survey.up_axis == 0 ? Vector3d::UnitY() : Vector3d::UnitX();
+    const Vector3d right = (along - along.dot(normal_) * normal_).normalized(), side = right.cross(normal_);
+    const double azimuth = camera.azimuth * std::numbers::pi / 180,
+                 elevation = camera.elevation * std::numbers::pi / 180;
+    const Vector3d towards = std::cos(elevation) * (std::sin(azimuth) * right + std::cos(azimuth) * side) +
+                             std::sin(elevation) * normal_;
+    const bool tilted = studio_.style.tilt && !survey.gravity.isZero(0);
+    return Eye::axes_of(towards, tilted ? Vector3d(-survey.gravity.normalized()) : normal_);
+  }
+
+  /// A camera that goes round is as near everywhere as lets it see all from each of its places; else what it sees would grow
+  /// and shrink on the way.
+  void keep_distance() {
+    constexpr int between = 8;  // places that are looked at from one key to the next
+    const auto& keys = studio_.style.camera_keys;
+    const double own = eye_.focal / studio_.style.camera.zoom;
+    double least = own;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      for (int part = 0; part < (k + 1 < keys.size() ? between : 1); ++part) {
+        const double t = static_cast<double>(part) / between;
+        Camera camera = keys[k].camera;
+        if (k + 1 < keys.size()) {
+          camera.azimuth += t * (keys[k + 1].camera.azimuth - camera.azimuth);
+          camera.elevation += t * (keys[k + 1].camera.elevation - camera.elevation);
+        }
+        least = std::min(least, Eye::on_box(box_, axes_at(camera), scene_place_, 1).focal);
+      }
+    // about the middle of what is seen
+    const plot::Point middle = scene_place_.centre();
+    eye_.at = middle + least / own * (eye_.at - middle);
+    eye_.focal = studio_.style.camera.zoom * least;
+  }
 
   double period() const { return studio_.survey.domain.sizes().x(); }
   bool copies() const { return studio_.style.copies && period() > 0; }
@@ -94,7 +145,10 @@ class SolidPainter : public Painter {
   double pixel() const { return eye_.distance / eye_.focal; }
 
   /// Grains may lie beyond the scene's place, and would run under the texts beside it.
-  bool goes_near() const { return studio_.style.camera.zoom > 1 || studio_.style.camera.follow; }
+  bool goes_near() const {
+    const auto& style = studio_.style;
+    return style.camera.zoom > 1 || style.camera.follow || !style.camera_keys.empty();
+  }
   bool overflows() const { return goes_near() || studio_.survey.cropped; }
   void keep_inside(image::Image& picture) const {
     const auto& p = studio_.palette;
@@ -138,7 +192,8 @@ class SolidPainter : public Painter {
   /// Chains run inside the grains: those shrink so that they show.
   double seen_radius(const read::GrainFrame& frame, std::size_t i) const {
     constexpr double shrunk = 0.4;
-    return frame.radius[i] * (studio_.style.chains && !studio_.is_bed(frame, i) ? shrunk : 1);
+    return frame.radius[i] *
+           (studio_.style.chains && !studio_.is_glassy() && !studio_.is_bed(frame, i) ? shrunk : 1);
   }
 
   void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
@@ -149,15 +204,35 @@ class SolidPainter : public Painter {
                                             orientation_->at(i, 2), orientation_->at(i, 3))
                              .cast<float>();
     content_.balls.push_back(ball);
+    glassy_.push_back(!bed);
     if (!copies()) return;
-    for (const double shift : {-period(), period()}) {
+    for (const double shift : copy_shifts(studio_.style, period())) {
       Ball copy = ball;
       copy.centre.x() += shift;
-      const double beyond = beyond_domain(studio_.survey.domain, copy.centre.x());
+      const double beyond = beyond_domain(studio_.survey.domain, copy.centre.x(), studio_.style.copy_reach);
       if (beyond >= 1) continue;
       copy.color = mix(color, studio_.palette.ground, 0.6 + 0.3 * std::max(0.0, beyond));
       content_.balls.push_back(copy);
+      glassy_.push_back(!bed);
     }
+  }
+
+  /// Grains are one layer of glass: where the nearest thing is a grain that moves, what lies behind all of these shows through.
+  void show_behind(image::Image& picture) {
+    SolidContent behind = content_;
+    behind.balls.clear(), behind.spots.clear();
+    std::vector<std::size_t> new_number(content_.balls.size());
+    for (std::size_t i = 0; i < content_.balls.size(); ++i) {
+      new_number[i] = behind.balls.size();
+      if (!glassy_[i]) behind.balls.push_back(content_.balls[i]);
+    }
+    for (auto spot : content_.spots)  // they are on beads of the bed
+      if (!glassy_[spot.ball]) spot.ball = new_number[spot.ball], behind.spots.push_back(spot);
+    scene_.draw(behind, behind_);
+    const double opacity = studio_.style.opacity;
+    for (std::size_t k = 0; k < picture.rgba.size(); ++k)
+      picture.rgba[k] =
+          static_cast<std::uint8_t>(std::lround(opacity * picture.rgba[k] + (1 - opacity) * behind_.rgba[k]));
   }
 
   /// Spots on beads of the bed, which stay where they were hit. Grains that move would have turned away since.
@@ -209,7 +284,7 @@ class SolidPainter : public Painter {
       for (int c = 0; c < 3; ++c)
         if (const double L = studio_.survey.domain.sizes()[c]; L > 0)
           to[c] -= L * std::round((to[c] - link.from[c]) / L);  // a contact through the periodic ends
-      content_.rods.push_back({link.from, to, radius, radius, studio_.palette.chain});
+      content_.rods.push_back({link.from, to, radius, radius, studio_.chain_color(link.force)});
     }
   }
 

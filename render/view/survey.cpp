@@ -69,9 +69,16 @@ double Surveyor::Sample::quantile(double q) {
   return values[static_cast<std::size_t>(k)];
 }
 
-double beyond_domain(const Eigen::AlignedBox3d& domain, double x) {
+std::vector<double> copy_shifts(const FrameStyle& style, double period) {
+  std::vector<double> shifts;
+  for (int k = 1; k <= static_cast<int>(std::ceil(style.copy_reach)); ++k)
+    shifts.push_back(-k * period), shifts.push_back(k * period);
+  return shifts;
+}
+
+double beyond_domain(const Eigen::AlignedBox3d& domain, double x, double reach) {
   const double from = domain.min().x(), to = domain.max().x();
-  return std::max(from - x, x - to) / (copy_reach * (to - from));
+  return std::max(from - x, x - to) / (reach * (to - from));
 }
 
 Surveyor::Surveyor(const FrameStyle& style) : style_(style) {
@@ -108,18 +115,22 @@ void Surveyor::see(const read::GrainFrame& frame, std::optional<double> time) {
 
   const Eigen::Rotation2Dd turn(s.turn);
   const double period = style_.copies ? s.domain.sizes().x() : 0;
+  const auto shifts = copy_shifts(style_, period);
   const auto values = s.field.values(frame);
   const auto* velocity = frame.find(fields::velocity.name);
   bool any_moving = false, any_fixed = false;
   for (std::size_t i = 0; i < frame.size(); ++i) {
     const double r = frame.radius[i];
     const Eigen::Vector3d centre = frame.centre(i);
-    if (period > 0)
-      for (const double shift : {0.0, -period, period}) {
-        if (shift != 0 && beyond_domain(s.domain, centre.x() + shift) >= 1) continue;
+    if (period > 0) {
+      const auto see_copy = [&](double shift) {
         const Eigen::Vector2d seen = turn * Eigen::Vector2d(centre.x() + shift, centre.y());
         copies_.extend((seen.array() - r).matrix()).extend((seen.array() + r).matrix());
-      }
+      };
+      see_copy(0);
+      for (const double shift : shifts)
+        if (beyond_domain(s.domain, centre.x() + shift, style_.copy_reach) < 1) see_copy(shift);
+    }
     const bool fixed = frame.is_fixed(i);
     (fixed ? any_fixed : any_moving) = true;
     extent_.add(centre, r, fixed);
@@ -217,10 +228,11 @@ void Surveyor::choose_view() {
 
 void Surveyor::choose_range() {
   auto& s = found_;
+  auto& values_ = s.field.forces ? forces_ : this->values_;
   if (style_.range) {
     std::tie(s.low, s.high) = *style_.range;
     s.diverging = style_.map.empty() ? s.low < 0 && s.high > 0 && s.low == -s.high : false;
-  } else if (values_.values.empty() || s.field.is_none()) {
+  } else if (values_.values.empty() || !s.field.has_bar()) {
     s.low = 0, s.high = 1;
   } else if (s.field.is_signed() || (values_.lowest < 0 && values_.highest > 0)) {
     const double end =
@@ -229,7 +241,7 @@ void Surveyor::choose_range() {
   } else {
     s.high = values_.quantile(0.995), s.low = values_.quantile(0.005);
     const bool from_zero =
-        s.field.part == ColorField::Part::magnitude || (s.low >= 0 && s.low < 0.4 * s.high);
+        s.field.forces || s.field.part == ColorField::Part::magnitude || (s.low >= 0 && s.low < 0.4 * s.high);
     if (from_zero) s.low = 0, s.high = round_up(s.high);
     if (!(s.high > s.low))
       s.high = s.low != 0 ? s.low + std::abs(s.low) / 2 : 1, s.low -= s.low != 0 ? std::abs(s.low) / 2 : 0;
@@ -288,9 +300,9 @@ std::string Survey::describe() const {
              "diameter={} speed={} force={} fixed={:d} decimals={} times={:d} categories={}",
              dimensions, text(up), slope, turn, text(bounds.min()) + text(bounds.max()),
              text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity),
-             units + clock, field.array, static_cast<int>(field.part), field.component, low, high, diverging,
-             exceeds_low, exceeds_high, diameter, speed, force, has_fixed, time_decimals, has_times,
-             fmt::join(categories, ",")) +
+             units + clock, field.forces ? "chains" : field.array, static_cast<int>(field.part),
+             field.component, low, high, diverging, exceeds_low, exceeds_high, diameter, speed, force,
+             has_fixed, time_decimals, has_times, fmt::join(categories, ",")) +
          fmt::format(" kinds={}|{}", fmt::join(kind_names, "|"), fmt::join(field.words, "|")) +
          (lattice ? fmt::format(" lattice={}{}", text(lattice->origin), text(lattice->edges.reshaped()))
                   : "");
@@ -299,15 +311,16 @@ std::string Survey::describe() const {
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
               const read::Meanings& meanings, int jobs, const std::function<void(std::size_t)>& tell) {
   std::vector<std::string> wanted{color_array(style.color), std::string(fields::velocity.name)};
-  if (style.camera.follow) wanted.emplace_back(fields::id.name);
+  if (style.camera.follow || style.chains) wanted.emplace_back(fields::id.name);
   struct Seen {
     read::GrainFrame frame;
     std::vector<read::ForceLink> links;
   };
   const auto understand = [&](std::size_t i, std::vector<read::FileBytes> files) {
     const bool chains = style.chains && !frames[i].contacts.empty();
-    return Seen{read::parse_frame(std::move(files), meanings, wanted),
-                chains ? read::read_network(frames[i].contacts) : std::vector<read::ForceLink>()};
+    Seen seen{read::parse_frame(std::move(files), meanings, wanted), {}};
+    if (chains) seen.links = read::parse_network(read::network_bytes(frames[i]), meanings, &seen.frame);
+    return seen;
   };
   Surveyor surveyor(style);
   // The first alone: VTK makes its tables then, which is not for threads. Later ones are read ahead.

@@ -59,10 +59,11 @@ struct Survey {
   std::string describe() const;
 };
 
-/// How far copies are drawn beyond the periodic ends, in periods.
-inline constexpr double copy_reach = 0.16;
-/// How far outside `domain` in x, as a share of copy_reach; a copy is drawn if it is below 1.
-double beyond_domain(const Eigen::AlignedBox3d& domain, double x);
+/// How far outside `domain` in x, as a share of the `reach` of copies in periods; a copy is drawn if it is below 1.
+double beyond_domain(const Eigen::AlignedBox3d& domain, double x, double reach);
+
+/// By how much copies are shifted along x: whole periods to both sides, as far as they are drawn.
+std::vector<double> copy_shifts(const FrameStyle& style, double period);
 
 /// Reads every frame once, `jobs` at a time. `tell` hears how many are done. InputError as read_frame; also if
 /// the field is missing.

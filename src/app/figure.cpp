@@ -19,6 +19,7 @@
 #include "figures/simulate.hpp"
 #include "io/csv.hpp"
 #include "plot/draw.hpp"
+#include "plot/fonts.hpp"
 #include "plot/layout.hpp"
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
@@ -43,9 +44,17 @@ fs::path scenes_folder() {
 struct Recipe {
   std::string title;
   std::vector<figures::DataRecipe> data;
-  plot::PlotRecipe plot;
-  std::string style_file;  ///< relative to the recipe; in place of [style]
+  plot::PlotRecipe plot;  ///< with what [style] or the style file says
 };
+
+plot::StyleChanges read_style(const fs::path& file) {
+  const auto keys = parse_toml(read_file(file), file.string());
+  TomlReader reader(keys, file.string());
+  plot::StyleChanges style;
+  describe(reader, style);
+  reader.finish();
+  return style;
+}
 
 }  // namespace
 
@@ -56,14 +65,21 @@ static void describe(TomlReader& a, Recipe& recipe) {
   else
     a.sections("data", recipe.data);
   a.check(!recipe.data.empty(), "data", "a figure needs data");
-  a.section("plot", recipe.plot);
-  if (!a.has("style") || a.has_table("style"))
+  if (!a.has("style") || a.has_table("style")) {
     a.section("style", recipe.plot.changes);
-  else
-    a.value("style", recipe.style_file);
+  } else {
+    std::string file;
+    a.value("style", file);
+    recipe.plot.changes = read_style(fs::path(recipe.plot.source).parent_path() / file);
+  }
+  // texts are tried out as they are read, so their font comes first
+  const auto& font = recipe.plot.changes.font;
+  const plot::FamilyScope family(font ? plot::font_family(*font) : 0);
+  a.section("plot", recipe.plot);
 }
 static void describe(KeyLister& a, Recipe& recipe) {
   a.required("title", recipe.title, "of the figure");
+  a.value("style", std::string(), "a file with the keys of [style], relative to the recipe, in its place");
   a.sections("data", recipe.data);
   a.section("plot", recipe.plot);
   a.section("style", recipe.plot.changes);
@@ -80,13 +96,6 @@ Recipe read_recipe(const fs::path& file) {
   recipe.plot.source = file.string();
   describe(reader, recipe);
   reader.finish();
-  if (!recipe.style_file.empty()) {
-    const auto style_file = file.parent_path() / recipe.style_file;
-    const auto keys = parse_toml(read_file(style_file), style_file.string());
-    TomlReader style(keys, style_file.string());
-    describe(style, recipe.plot.changes);
-    style.finish();
-  }
   return recipe;
 }
 
@@ -317,6 +326,21 @@ std::string check_figure(const fs::path& file, const fs::path& directory,
                      work.runs == 1 ? "" : "s", work.there, duration_text(work.seconds));
 }
 
+namespace {
+
+/// What stands above the keys of a table: of `data.+table.where` "[data.where] with table".
+std::string heading_of(const std::string& table) {
+  if (table.empty()) return "All recipes";
+  if (table == "plot.x") return "`[plot.x]`, and every other axis: y, right, those of panels and insets";
+  const auto plus = table.find(".+");
+  if (plus == table.npos) return fmt::format("`[{}]`", table);
+  const auto end = std::min(table.find('.', plus + 1), table.size());
+  return fmt::format("`[{}{}]` with `{}`", table.substr(0, plus), table.substr(end),
+                     table.substr(plus + 2, end - plus - 2));
+}
+
+}  // namespace
+
 std::string figure_keys() {
   KeyLister lister;
   Recipe recipe;
@@ -328,7 +352,8 @@ std::string figure_keys() {
     const auto table = dot == key.key.npos ? std::string() : key.key.substr(0, dot);
     if (dot != key.key.npos) key.key = key.key.substr(dot + 1);
     // Axes look the same everywhere.
-    if (table.starts_with("plot.") && table != "plot.x" && (table.ends_with(".x") || table.ends_with(".y")))
+    if (table.starts_with("plot.") && table != "plot.x" &&
+        (table.ends_with(".x") || table.ends_with(".y") || table.ends_with(".right")))
       continue;
     auto found = std::ranges::find(tables, table, &std::pair<std::string, std::vector<KeyText>>::first);
     if (found == tables.end()) found = tables.insert(found, {table, {}});
@@ -336,11 +361,7 @@ std::string figure_keys() {
     if (!again) found->second.push_back(std::move(key));
   }
   KeyTable all;
-  for (const auto& [table, keys] : tables)
-    all.add(table.empty()       ? "All recipes"
-            : table == "plot.x" ? "`[plot.x]`, and every other axis"
-                                : fmt::format("`[{}]`", table),
-            keys);
+  for (const auto& [table, keys] : tables) all.add(heading_of(table), keys);
   return all.text();
 }
 

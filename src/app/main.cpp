@@ -72,6 +72,10 @@ int main(int argc, char** argv) {
   app::add_figure(app);
   app::add_compare(app);
   app::add_report(app);
+  app::add_convert(app);
+  app::add_measure(app);
+  app::add_export(app);
+  app::add_import(app);
   app::add_theory(app);
   app::add_manual(app);
 

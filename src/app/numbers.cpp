@@ -36,9 +36,13 @@ bool all_given(const std::vector<double>& values) {
   return std::none_of(values.begin(), values.end(), [](double x) { return std::isnan(x); });
 }
 
-std::pair<int, int> read_size(const std::string& text) {
-  constexpr const char* expected = "WIDTHxHEIGHT in pixels, such as 1920x1080";
-  const auto sides = numbers("--size", text, 'x', expected);
+std::pair<int, int> read_size(const std::string& text, double dpi) {
+  constexpr const char* expected = "WIDTHxHEIGHT in pixels, such as 1920x1080; or with --dpi in mm, 86x60mm";
+  const bool in_print = text.ends_with("mm") && dpi > 0;
+  auto sides = numbers("--size", in_print ? text.substr(0, text.size() - 2) : text, 'x', expected);
+  constexpr double mm_per_inch = 25.4;
+  if (in_print)
+    for (double& side : sides) side = std::round(side / mm_per_inch * dpi);
   require(sides.size() == 2 && all_given(sides) && sides[0] == std::floor(sides[0]) &&
               sides[1] == std::floor(sides[1]) && std::abs(sides[0]) < 1e6 && std::abs(sides[1]) < 1e6,
           "--size", text, expected);

@@ -16,6 +16,7 @@ void require(bool holds, const std::string& option, const std::string& text, con
 bool all_given(const std::vector<double>& values);
 
 /// Width and height of `--size WIDTHxHEIGHT`, whole numbers; what is too small or too large is found by whoever draws.
-std::pair<int, int> read_size(const std::string& text);
+/// `dpi` > 0: may be in mm, too.
+std::pair<int, int> read_size(const std::string& text, double dpi = 0);
 
 }  // namespace chute::app

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,6 +11,7 @@
 #include <thread>
 #include <tuple>
 
+#include "app/file_meanings.hpp"
 #include "app/interrupt.hpp"
 #include "app/numbers.hpp"
 #include "app/progress.hpp"
@@ -27,9 +29,12 @@ namespace {
 struct RenderArguments {
   std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series, up;
   std::string title, time;
-  double time_scale = 1, font_size = 0;
-  std::string radius, diameter, velocity, spin, orientation, type, id;
-  std::vector<std::string> species;
+  double time_scale = 1, font_size = 0, opacity = 1, copy_reach = 0.16, dpi = 0;
+  std::string format = "png";
+  std::vector<std::string> camera_at;
+  FileMeanings meanings;
+  std::string contacts;
+  std::vector<std::string> species, force, ends;
   std::vector<std::string> plot;
   double fps = 25, speed = 0;
   int jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
@@ -81,6 +86,20 @@ void read_camera(const std::string& text, view::Camera& camera) {
   }
 }
 
+/// `12.5=30:20:1.5`: where the camera is at that time.
+view::CameraKey read_camera_key(const std::string& text) {
+  constexpr const char* expected = "TIME=X0:X1:Y0:Y1 in the plane, TIME=AZIMUTH:ELEVATION[:ZOOM] in space";
+  const auto equals = text.find('=');
+  require(equals != std::string::npos, "--camera-at", text, expected);
+  const auto time = numbers("--camera-at", text.substr(0, equals), ':', expected);
+  view::CameraKey key;
+  require(time.size() == 1 && all_given(time), "--camera-at", text, expected);
+  key.time = time[0];
+  read_camera(text.substr(equals + 1), key.camera);
+  require(!key.camera.follow && !key.camera.all, "--camera-at", text, expected);
+  return key;
+}
+
 /// `z`, `-y`, `0.2:0:1`.
 Eigen::Vector3d read_up(const std::string& text) {
   constexpr const char* expected = "x, y, z, -x, -y, -z or X:Y:Z";
@@ -90,23 +109,6 @@ Eigen::Vector3d read_up(const std::string& text) {
   const auto values = numbers("--up", text, ':', expected);
   require(values.size() == 3 && all_given(values), "--up", text, expected);
   return {values[0], values[1], values[2]};
-}
-
-/// A number is the same for all grains, anything else the name of an array.
-void read_size_of_grains(const std::string& option, const std::string& text, double per_radius,
-                         read::Meanings& meanings, std::string& array) {
-  if (text.empty()) return;
-  if (meanings.radius || !meanings.radius_array.empty() || !meanings.diameter_array.empty())
-    throw InputError("--radius and --diameter: one of them says how large grains are");
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) {
-    array = text;
-    return;
-  }
-  require(value > 0 && std::isfinite(value), option, text, "a number > 0, or the name of an array");
-  meanings.radius = value / per_radius;
 }
 
 /// `x>3`, `z<0.5`: what lies there is cut away.
@@ -144,11 +146,18 @@ view::Background read_background(const std::string& word) {
                                hint.empty() ? "" : fmt::format(", did you mean {}?", hint)));
 }
 
+view::StillFormat read_format(const std::string& word) {
+  const std::vector<std::string> words{"png", "pdf", "svg"};
+  const auto found = std::find(words.begin(), words.end(), word);
+  require(found != words.end(), "--format", word, "png, pdf or svg");
+  return static_cast<view::StillFormat>(found - words.begin());
+}
+
 view::RenderJob job_of(const RenderArguments& a) {
   view::RenderJob job;
   job.source = a.run;
   auto& style = job.style;
-  if (!a.size.empty()) std::tie(style.width, style.height) = read_size(a.size);
+  if (!a.size.empty()) std::tie(style.width, style.height) = read_size(a.size, a.dpi);
   style.color = a.color, style.map = a.map;
   if (!a.range.empty()) {
     const auto values = numbers("--range", a.range, ':', "LOW:HIGH");
@@ -156,19 +165,29 @@ view::RenderJob job_of(const RenderArguments& a) {
     style.range = {values[0], values[1]};
   }
   if (!a.camera.empty()) read_camera(a.camera, style.camera);
+  for (const auto& key : a.camera_at) style.camera_keys.push_back(read_camera_key(key));
+  std::sort(style.camera_keys.begin(), style.camera_keys.end(),
+            [](const auto& one, const auto& other) { return one.time < other.time; });
   if (!a.frames.empty()) job.frames = read_frames(a.frames);
   style.background = read_background(a.background);
-  style.tilt = a.tilt, style.arrows = a.arrows, style.chains = a.chains, style.copies = a.copies;
+  style.tilt = a.tilt, style.arrows = a.arrows, style.chains = a.chains || style.colors_forces();
+  style.copies = a.copies || a.copy_reach != style.copy_reach, style.copy_reach = a.copy_reach;
+  style.opacity = a.opacity;
   style.impacts = a.impacts, style.outlines = a.outlines, style.floor = a.floor, style.box = a.box;
   for (const auto& cut : a.cuts) style.cuts.push_back(read_cut(cut));
   style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
   job.movie = a.movie, job.output = a.output;
+  job.format = read_format(a.format), job.dpi = a.dpi;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
+  job.meanings = a.meanings.read();
   auto& meanings = job.meanings;
-  read_size_of_grains("--radius", a.radius, 1, meanings, meanings.radius_array);
-  read_size_of_grains("--diameter", a.diameter, 2, meanings, meanings.diameter_array);
-  meanings.velocity = a.velocity, meanings.spin = a.spin, meanings.orientation = a.orientation;
-  meanings.type = a.type, meanings.id = a.id;
+  meanings.force = a.force, meanings.ends = a.ends;
+  require(a.ends.empty() || a.ends.size() == 2 || a.ends.size() == 4 || a.ends.size() == 6, "--ends",
+          fmt::format("{}", fmt::join(a.ends, ",")),
+          "the two columns of ids, or the four or six of places: X1,Y1,Z1,X2,Y2,Z2");
+  if (a.contacts.empty() && (!a.force.empty() || !a.ends.empty()))
+    throw InputError("--force and --ends say what columns of --contacts are");
+  job.contacts = a.contacts, style.chains = style.chains || !a.contacts.empty();
   style.species = a.species;
   style.title = a.title, style.time = a.time, style.time_scale = a.time_scale, style.font_size = a.font_size;
   if (!a.up.empty()) style.up = read_up(a.up);
@@ -276,15 +295,26 @@ void add_render(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   verb->add_option("--color", a->color,
                    "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "
-                   "default the speed, else the species");
+                   "chains: forces, which chains tell; default the speed, else the species");
   verb->add_option("--range", a->range, "colour range LOW:HIGH; default from the whole run");
   verb->add_option("--colormap", a->map, "viridis, batlow, cividis, rdbu, or one of them with _r, reversed");
-  verb->add_option("--size", a->size, "pixels, WIDTHxHEIGHT; default 1920x1080");
+  verb->add_option("--size", a->size,
+                   "pixels, WIDTHxHEIGHT, or with --dpi WIDTHxHEIGHTmm; default 1920x1080");
+  verb->add_option("--format", a->format,
+                   "of pictures: png; pdf or svg, in which texts are texts, and grains in the plane curves")
+      ->capture_default_str();
+  verb->add_option(
+      "--dpi", a->dpi,
+      "pixels of an inch in print, which files then say: sizes may be in mm; pages default to 96");
   verb->add_option("--frames", a->frames, "one frame, or FIRST:END:STEP with END not included");
   verb->add_option(
       "--camera", a->camera,
       "X0:X1:Y0:Y1 in the plane, AZIMUTH:ELEVATION[:ZOOM] in space; default shows nearly all grains, all every "
       "one. Also, or after a comma, follow[:ID|mean]: it goes along with a grain or the mean");
+  verb->add_option(
+      "--camera-at", a->camera_at,
+      "TIME=X0:X1:Y0:Y1 or TIME=AZIMUTH:ELEVATION[:ZOOM], several times: the camera goes smoothly "
+      "from one to the next");
   verb->add_option(
       "--up", a->up,
       "which way is up, x, y, z, -x …, or X:Y:Z; default against gravity, else across the thinnest spread of grains in space");
@@ -304,6 +334,12 @@ void add_render(CLI::App& app) {
   verb->add_flag("--chains", a->chains,
                  "contact forces as lines, wide where strong (needs the run's contacts)");
   verb->add_flag("--copies", a->copies, "faded copies beyond the periodic ends");
+  verb->add_option("--copies-reach", a->copy_reach, "so many periods of them to each side")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--opacity", a->opacity,
+                   "of grains that move: below 1 one sees through them, such as to chains")
+      ->check(CLI::Range(0.01, 1.0));
   verb->add_flag("--impacts", a->impacts, "marks where beads of the bed were hit so far (needs impacts.vtp)");
   verb->add_option("--cut", a->cuts,
                    "leave out grains beyond a place: x>VALUE, z<VALUE; several are possible")
@@ -326,14 +362,16 @@ void add_render(CLI::App& app) {
   verb->add_option("--series", a->series, "another table for --plot, with a column time");
   verb->add_flag("--no-spin", a->no_spin, "no marks that turn with the grains");
   verb->add_flag("--bare", a->bare, "the grains alone: no colour bar, time, scale and gravity");
-  verb->add_option("--radius", a->radius, "array of the radii, or one number for all grains");
-  verb->add_option("--diameter", a->diameter, "array of the diameters, or one number for all grains");
-  verb->add_option("--velocity", a->velocity, "array of the velocities, or its components U,V[,W]");
-  verb->add_option("--spin", a->spin, "array of the angular velocities");
-  verb->add_option("--orientation", a->orientation,
-                   "array of angles (plane) or quaternions w x y z (space), which the marks show");
-  verb->add_option("--type", a->type, "array of the species");
-  verb->add_option("--id", a->id, "array of the grains' numbers, for trails and --camera follow");
+  a->meanings.add_options(*verb);
+  verb->add_option(
+      "--contacts", a->contacts,
+      "files of contacts of another program, whose forces are drawn as chains: VTK, CSV, or a dump "
+      "local of LAMMPS; a folder, an index of times, one file, or a pattern in quotes");
+  verb->add_option("--force", a->force, "column of their strength, or its components: FX,FY,FZ")
+      ->delimiter(',');
+  verb->add_option("--ends", a->ends,
+                   "columns of the ids of the two grains, A,B, or of their places: X1,Y1,Z1,X2,Y2,Z2")
+      ->delimiter(',');
   verb->add_option("--species", a->species,
                    "names of the species, in the order of their numbers: glass,steel")
       ->delimiter(',');

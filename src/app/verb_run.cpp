@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct RunArguments {
   std::string scene, directory;
   std::vector<std::string> settings;
-  int threads = 1;
+  int threads = 1, ranks = 1;
   double checkpoint_minutes = 5;
   bool resume = false, force = false, quiet = false;
 };
@@ -61,6 +61,11 @@ void run(const RunArguments& arguments) {
   const auto scene = arguments.resume
                          ? run::parse_to_go_on(input.text, input.name, arguments.settings, options.directory)
                          : scene::parse_scene(input.text, input.name, arguments.settings);
+  const bool of_lammps = scene.engine.word() == "lammps";
+  if (arguments.ranks > 1 && !of_lammps)
+    throw InputError(
+        fmt::format("--ranks: for engine.method = \"lammps\"; \"{}\" takes --threads", scene.engine.word()));
+  if (of_lammps) options.threads = arguments.ranks;
   // A run that goes on was told both when it began.
   if (!arguments.quiet && !arguments.resume) {
     for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);
@@ -107,6 +112,8 @@ void add_run(CLI::App& app) {
                "change a key of the scene: contact.normal.restitution=0.7");
   verb->add_option("--threads", a->threads, "threads; results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  verb->add_option("--ranks", a->ranks, "of engine.method = \"lammps\": processes of MPI (mpirun -n)")
+      ->check(CLI::Range(1, 100000));
   verb->add_flag("--resume", a->resume,
                  "go on with a run; run.duration and what stands in [output] may be others than before");
   verb->add_option("--checkpoint-minutes", a->checkpoint_minutes,

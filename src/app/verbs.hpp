@@ -13,6 +13,10 @@ void add_sweep(CLI::App& app);
 void add_figure(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_report(CLI::App& app);
+void add_convert(CLI::App& app);
+void add_measure(CLI::App& app);
+void add_export(CLI::App& app);
+void add_import(CLI::App& app);
 void add_theory(CLI::App& app);
 
 /// The command line as it was given, for run.json and figure comments.

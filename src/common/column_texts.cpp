@@ -53,6 +53,18 @@ std::vector<ColumnText> layer_columns() {
       column("coordination", none, "mean number of contacts of a grain")};
 }
 
+/// The first column of tables that go with the run's clock: `time`, or what the method counts.
+std::vector<ColumnText> behind_clock(const char* meaning, std::vector<ColumnText> others) {
+  std::vector<ColumnText> all{
+      {"time", fmt::format("{}; shakes, sweeps or updates where the method counts those", meaning), time.si,
+       time.reduced},
+      column("shakes", none, "the same in shakes made, of packings"),
+      column("sweeps", none, "the same in Monte Carlo sweeps made"),
+      column("updates", none, "the same in updates of a lattice made")};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
 std::vector<TableText> all_tables() {
   return {
       {"series.csv",
@@ -150,22 +162,19 @@ std::vector<TableText> all_tables() {
        blocks,
        {column("phi", none, "packing fraction"), column("g_contact", none, "g at contact, extrapolated"),
         column("Z", none, "β P/n of hard grains of one size")}},
-      {"velocities.csv",
-       "a sample of a grain",
-       "",
-       {column("time", time, "of the sample"), column("grain", none, "its id"),
-        column("v_*", speed, "its velocity: x > 0 downhill")}},
+      {"velocities.csv", "a sample of a grain", "",
+       behind_clock("of the sample",
+                    {column("grain", none, "its id"), column("v_*", speed, "its velocity: x > 0 downhill")})},
       {"velocity_histograms.csv",
        "a bin of a component",
        "",
        {column("component", none, "x, y or z"), column("v", speed, "middle of the bin"),
         column("density", per_speed, "probability density")}},
-      {"diffusion.csv",
-       "a length of time",
-       blocks,
-       {column("time", time, "length of the pieces"), column("pieces", none, "how many"),
-        column("square_x", square, "mean square of the way along, about the mean drift"),
-        column("square_y", square, "mean square of the way across")}},
+      {"diffusion.csv", "a length of time", blocks,
+       behind_clock("length of the pieces",
+                    {column("pieces", none, "how many"),
+                     column("square_x", square, "mean square of the way along, about the mean drift"),
+                     column("square_y", square, "mean square of the way across")})},
       {"diffusion_coefficients.csv",
        "the one row",
        blocks,
@@ -213,12 +222,9 @@ std::vector<TableText> all_tables() {
        blocks,
        {column("force", none, "normal force over the mean of its instant (and layer)"),
         column("density", none, "probability density")}},
-      {"moments.csv",
-       "a time",
-       "",
-       {column("time", time, "since the start"),
-        column("temperature", energy, "⟨m c²⟩/D about the mean velocity"),
-        column("a_2", none, "fourth cumulant, 0 of a Maxwellian")}},
+      {"moments.csv", "a time", "",
+       behind_clock("since the start", {column("temperature", energy, "⟨m c²⟩/D about the mean velocity"),
+                                        column("a_2", none, "fourth cumulant, 0 of a Maxwellian")})},
       {"heights.csv",
        "a grain",
        blocks,

@@ -3,6 +3,7 @@
 #include "engines/dsmc/dsmc_method.hpp"
 #include "engines/event/event_method.hpp"
 #include "engines/hybrid/hybrid_method.hpp"
+#include "engines/lammps/lammps_method.hpp"
 #include "engines/monte_carlo/monte_carlo_method.hpp"
 #include "engines/restructuring/restructuring_method.hpp"
 #include "engines/soft/soft_method.hpp"
@@ -21,6 +22,7 @@ Catalogue<Method>& list() {
       kind_of<Method, monte_carlo::MonteCarloMethod>(),
       kind_of<Method, automaton::AutomatonMethod>(),
       kind_of<Method, dsmc::DsmcMethod>(),
+      kind_of<Method, lammps::LammpsMethod>(),
   };
   return all;
 }

@@ -143,6 +143,10 @@ void describe(KeyLister& a, DataRecipe& recipe) {
   a.value("table", recipe.table, "a CSV file, relative to the recipe: a run's, a sweep's, your own");
   a.value("expression", std::string(), "a formula of x for a line, read by muParser: \"0.3*(1-exp(-x/2))\"");
   describe_simulated(a, recipe);
+  // What a table or a formula has instead; the plus says that these are keys of [data] itself.
+  a.section("+table", recipe.columns);
+  FormulaCurve line;
+  a.section("+expression", line);
   a.sections("sweep", recipe.sweeps);
   a.sections("experiment", recipe.experiments);
   a.sections("fit", recipe.fits);

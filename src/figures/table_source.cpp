@@ -31,6 +31,9 @@ void describe_columns(Archive& a, TableColumns& columns) {
   a.value("x", columns.x, "column of x");
   a.value("y", columns.y,
           "column of y; left out: the table has the columns of a figure (panel, series, x, y …)");
+  a.value(
+      "z", columns.z,
+      "column of a map over x and y: for each y a series \"z y=…\", which [plot.panel.map] makes its rows");
   a.value("x_err", columns.x_err, "column of the error of x");
   a.value("y_err", columns.y_err, "column of the error of y");
   a.sections("where", columns.where);
@@ -54,6 +57,8 @@ void describe_formula(Archive& a, FormulaCurve& curve) {
 
 void describe(TomlReader& a, TableColumns& columns) {
   describe_columns(a, columns);
+  a.check(!columns.z || (!columns.y.empty() && !columns.by && !columns.x_err && !columns.y_err), "z",
+          "goes with x, y and where; a map has one series for each y, and no errors");
   a.check(!columns.y.empty() || (!columns.by && columns.where.empty() && columns.series.empty()), "y",
           "missing: which column is drawn?");
 }
@@ -96,6 +101,29 @@ std::string as_name(std::string text) {
   return text;
 }
 
+/// What a key is called in names of series: its last word.
+std::string last_word(const std::string& column) { return column.substr(column.rfind('.') + 1); }
+
+/// A map: each value of y is a series, whose name ends with it.
+FigureTable rows_of_map(const TableColumns& columns, const read::Table& table,
+                        const std::filesystem::path& file, const std::vector<bool>& counts) {
+  const auto x = table.values(columns.x), y = table.column(columns.y), z = table.column(*columns.z);
+  const std::string name = columns.series.empty() ? last_word(*columns.z) : columns.series;
+  FigureTable made;
+  made.comments = {fmt::format("{}: {} over {} and {} of {}, a series for each {}", name, *columns.z,
+                               columns.x, columns.y, file.string(), columns.y)};
+  made.x_times = table.is_time(columns.x);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (counts[i] && std::isfinite(x[i]) && std::isfinite(y[i]) && std::isfinite(z[i]))
+      made.rows.push_back(
+          {columns.panel, as_name(fmt::format("{} {}={}", name, last_word(columns.y), y[i])), x[i], z[i]});
+  if (made.rows.empty())
+    throw InputError(fmt::format("{}: no row has numbers in {}, {} and {}{}", file.string(), columns.x,
+                                 columns.y, *columns.z,
+                                 columns.where.empty() ? "" : " and passes what `where` asks"));
+  return made;
+}
+
 }  // namespace
 
 FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::path& file) {
@@ -110,7 +138,7 @@ FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::pa
   if (columns.by) {
     const auto values = table.text(*columns.by);
     // Numbers are named after their key's last word: size_ratio=2.25.
-    const auto word = columns.by->substr(columns.by->rfind('.') + 1);
+    const auto word = last_word(*columns.by);
     const bool number = table.is_number(*columns.by);
     for (std::size_t i = 0; i < names.size(); ++i)
       names[i] =
@@ -127,6 +155,7 @@ FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::pa
     for (std::size_t i = 0; i < counts.size(); ++i)
       counts[i] = counts[i] && numbers[i] >= filter.low && numbers[i] < filter.high;
   }
+  if (columns.z) return rows_of_map(columns, table, file, counts);
   FigureTable made;
   made.comments = {fmt::format("{}: {} over {} of {}{}", columns.series.empty() ? columns.y : columns.series,
                                columns.y, columns.x, file.string(),

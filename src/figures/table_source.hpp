@@ -26,6 +26,7 @@ struct TableColumns {
   std::string series;             ///< the series' name, default that of the y column
   std::optional<std::string> by;  ///< a column: a series for each of its values, in the order of the table
   std::string x = "time", y;
+  std::optional<std::string> z;  ///< of a map: a series "z y=…" of it over x for each value of y
   std::optional<std::string> x_err, y_err;
   std::vector<RowFilter> where;
 };

@@ -107,7 +107,9 @@ Estimate estimate_bin(const std::vector<typename Blocks<Sums>::Part>& stretches,
     if (const double value = mean_of(stretch.bins[bin], stretch.samples); std::isfinite(value))
       values.push_back(value);
   }
-  return {mean_of(total, samples), estimate_of(values).error};
+  const double mean = mean_of(total, samples);
+  if (!std::isfinite(mean)) return {mean, {}};  // what is not known has no error either
+  return {mean, estimate_of(values).error};
 }
 
 }  // namespace chute::measure

@@ -113,7 +113,7 @@ class DiffusionObserver final : public Remembering<DiffusionObserver> {
         run_.comments(
             "mean squares of the displacement in pieces of a time, along about the mean drift and across; "
             "errors from blocks of the time window"),
-        {"time", "pieces", "square_x", "square_x_err", "square_y", "square_y_err"});
+        {run_.offers.clock, "pieces", "square_x", "square_x_err", "square_y", "square_y_err"});
     for (const auto& row : result.rows)
       table.row({row.time, row.pieces, row.square[0].mean, row.square[0].error, row.square[1].mean,
                  row.square[1].error});

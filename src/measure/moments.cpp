@@ -36,7 +36,7 @@ class MomentsInTime final : public Remembering<MomentsInTime> {
   }
   void write(const Flow&) const override {
     io::Csv csv(run_.comments("granular temperature, and a_2 of the velocities, of all moving grains"),
-                {"time", "temperature", "a_2"});
+                {run_.offers.clock, "temperature", "a_2"});
     for (const auto& row : rows_) csv.row({row[0], row[1], row[2]});
     run_.write("moments.csv", csv.text());
   }

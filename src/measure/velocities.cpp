@@ -34,7 +34,7 @@ class Velocities final : public Remembering<Velocities> {
     });
   }
   void write(const Flow&) const override {
-    std::vector<std::string_view> names{"time", "grain", "v_x", "v_y"};
+    std::vector<std::string_view> names{run_.offers.clock, "grain", "v_x", "v_y"};
     if (dimensions() == 3) names.emplace_back("v_z");
     io::Csv samples(run_.comments(fmt::format("velocities of moving grains, {} of {} samples",
                                               kept_.kept().size(), kept_.seen())),

@@ -78,9 +78,13 @@ class WorkingDay(unittest.TestCase):
             self.assertEqual(file.read(5), b"%PDF-")
 
     def test_2_a_film_in_slow_motion(self):
-        self.good(2)
-        with open(self.path("out", "slow.gif"), "rb") as file:
-            self.assertEqual(file.read(4), b"GIF8")
+        done = self.good(2)
+        self.assertEqual(done.stderr.count("a second of the movie is 2 sqrt(d/g)\n"), 2)
+        with open(self.path("out", "stills", "000020.pdf"), "rb") as file:
+            self.assertIn(b"/MediaBox [ 0 0 243.8", file.read())  # 86 mm
+        for name in ("slow.gif", "closer.gif"):
+            with open(self.path("out", name), "rb") as file:
+                self.assertEqual(file.read(4), b"GIF8")
 
     def test_3_a_phase_diagram(self):
         done = self.good(3)
@@ -89,11 +93,29 @@ class WorkingDay(unittest.TestCase):
         self.assertEqual(len(places), 20)
         self.assertLessEqual({row["series"] for row in places},
                              {"stopped", "steady", "accelerating", "runaway", "unsettled"})
-        self.assertGreater(len({row["series"] for row in places}), 1)
+        phases = {row["series"] for row in places}
+        self.assertGreater(len(phases), 1)
+        with open(self.path("out", "figures", "diagram.svg"), encoding="utf-8") as file:
+            picture = file.read().lower()
+        tints = ["#b6c7d8", "#e8bdb3", "#b6dbcf", "#cab7c9", "#f3dfbf"]  # 0.3 of the first colours on white
+        drawn = sum('fill="%s"' % tint in picture for tint in tints)
+        self.assertEqual(drawn, len(phases))  # every phase has cells
 
     def test_4_spheres_of_another_program(self):
         self.assertIn("3 points", self.good(4).stdout)
-        self.assertTrue(os.path.exists(self.path("out", "dump", "000000.png")))
+        # the network is in the picture
+        def drawn(*words):
+            done = subprocess.run([chute, "render", "dump.vtk", "--color", "type", "--size", "480x360", "-o", "other",
+                                   "--quiet", "--species", "sand,steel", *words],
+                                  cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(self.path("other", "000000.png"), "rb") as picture:
+                return picture.read()
+
+        with open(self.path("out", "dump", "000000.png"), "rb") as picture:
+            first = picture.read()
+        self.assertEqual(first, drawn("--contacts", "contacts.csv"))
+        self.assertNotEqual(first, drawn())
 
     def test_5_columns_are_told(self):
         said = self.good(5).stdout

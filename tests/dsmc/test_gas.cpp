@@ -45,11 +45,11 @@ double rate_ratio(Dense dense, double phi, std::size_t count, std::int64_t steps
 }  // namespace
 
 TEST_CASE("grains collide as often as kinetic theory says") {
-  // 4e6 … 1e7 collisions: the statistical error is below 0.1 %.
-  CHECK(rate_ratio<2>(Dense::none, 0.05, 40000, 500) == Approx(1).epsilon(0.003));
-  CHECK(rate_ratio<3>(Dense::none, 0.05, 40000, 500) == Approx(1).epsilon(0.003));
-  CHECK(rate_ratio<2>(Dense::rate, 0.2, 40000, 500) == Approx(1).epsilon(0.003));
-  CHECK(rate_ratio<3>(Dense::rate, 0.2, 40000, 500) == Approx(1).epsilon(0.003));
+  // 2e6 … 5e6 collisions: the statistical error is below 0.1 %.
+  CHECK(rate_ratio<2>(Dense::none, 0.05, 40000, 250) == Approx(1).epsilon(0.003));
+  CHECK(rate_ratio<3>(Dense::none, 0.05, 40000, 250) == Approx(1).epsilon(0.003));
+  CHECK(rate_ratio<2>(Dense::rate, 0.2, 40000, 250) == Approx(1).epsilon(0.003));
+  CHECK(rate_ratio<3>(Dense::rate, 0.2, 40000, 250) == Approx(1).epsilon(0.003));
   // With few grains in a cell a grain finds the partner again that it has just hit, which it leaves: fewer collisions. So
   // simulated grains stand for less than one real one here, and some 40 are in a cell.
   CHECK(rate_ratio<2>(Dense::esmc, 0.2, 40000, 100, 3, 0.05) == Approx(1).epsilon(0.01));
@@ -63,50 +63,6 @@ TEST_CASE("the rate does not depend on cells and step") {
   CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 800, 3, 1, 0.1) == Approx(usual).epsilon(0.004));
   CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 200, 3, 1, 0.4) == Approx(usual).epsilon(0.004));
   CHECK(rate_ratio<2>(Dense::rate, 0.1, 20000, 400, 3, 0.25) == Approx(usual).epsilon(0.006));
-}
-
-// Where there are gradients cells and steps matter: a gas between a hot and a cold mirror, whose heat flux carries momentum and
-// energy over a cell and a step. The error grows like their squares, so half of a fine cell and step changes nothing.
-TEST_CASE("a flux of heat does not depend on cells and steps that are fine enough, and does on coarse ones") {
-  const auto flux = [](double cell, double dt) {
-    constexpr std::size_t grains = 6000;
-    constexpr double phi = 0.02, w = 0.02;  // some 20 grains in the fine cells
-    Gas<2> gas(grains, phi / w, 1, 6);
-    gas.setup.weight = w;
-    const double side = gas.setup.domain.length[0];
-    // A strip 40 d high: some mean free paths.
-    constexpr double high = 40;
-    gas.setup.domain.length[0] = side * side / high;
-    gas.setup.domain.length[1] = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < grains; ++i) {
-      gas.grains.position[0][i] *= side / high;
-      gas.grains.position[1][i] = 0.5 + gas.grains.position[1][i] / side * (high - 1);
-    }
-    auto low = floor_wall<2>(), top = floor_wall<2>();
-    top.point[1] = high, top.normal[1] = -1;
-    low.surface.temperature = 2, top.surface.temperature = 0.5;
-    gas.setup.walls = {low, top};
-    gas.setup.dense = Dense::none;
-    gas.setup.cell = cell, gas.setup.time_step = dt;
-    DsmcEngine<2> engine(gas.grains, gas.setup);
-    engine.advance_to(std::llround(300 / dt));
-    // Mean upward flux of energy of all grains, Σ ½ m v² v_y.
-    double sum = 0;
-    constexpr int looks = 300;
-    for (int k = 1; k <= looks; ++k) {
-      engine.advance_to(std::llround((300 + 4.0 * k) / dt));
-      const auto& v = engine.state().velocity;
-      for (std::size_t i = 0; i < grains; ++i)
-        sum += 0.5 * (v[0][i] * v[0][i] + v[1][i] * v[1][i]) * v[1][i] / looks / grains;
-    }
-    return sum;
-  };
-  const double fine = flux(4, 1), finer = flux(2.5, 0.5), coarse_cell = flux(39, 1),
-               coarse_step = flux(4, 20);
-  CAPTURE(fine, finer, coarse_cell, coarse_step);
-  CHECK(fine == Approx(finer).epsilon(0.02));
-  CHECK(std::abs(coarse_cell / fine - 1) > 0.1);
-  CHECK(std::abs(coarse_step / fine - 1) > 0.1);
 }
 
 namespace {

@@ -20,8 +20,8 @@ TEST_CASE("(3.26) to (3.31) solve the equations of motion and respect Coulomb's 
 TEST_CASE("The viscous law finds every steady state") {
   for (const double force : {0.1, 0.3, 0.8, 1.5}) {
     PushedCylinder set_up;
-    set_up.block = laws::RegularisedCoulomb{1000, 0.5, laws::MassScaling::none};
-    set_up.plane = laws::RegularisedCoulomb{1000, 0.25, laws::MassScaling::none};
+    set_up.block = laws::RegularisedCoulomb{1000, 0.5, laws::MassScaling::none, {}};
+    set_up.plane = laws::RegularisedCoulomb{1000, 0.25, laws::MassScaling::none, {}};
     const auto end = push(set_up, {{force, 0.03}}, 1000).back();
     const auto theory = steady_cylinder(force, 0.5, 0.25);
     CHECK(end.plane_force == Approx(theory.plane_force).epsilon(1e-5));
@@ -34,8 +34,8 @@ TEST_CASE("The viscous law finds every steady state") {
 TEST_CASE("Between the critical forces both contacts slip") {
   // F_p = 0.55: block friction μ_b F_p, plane friction μ_p (1 + μ_b F_p)
   PushedCylinder set_up;
-  set_up.block = laws::RegularisedCoulomb{1000, 0.5, laws::MassScaling::none};
-  set_up.plane = laws::RegularisedCoulomb{1000, 0.25, laws::MassScaling::none};
+  set_up.block = laws::RegularisedCoulomb{1000, 0.5, laws::MassScaling::none, {}};
+  set_up.plane = laws::RegularisedCoulomb{1000, 0.25, laws::MassScaling::none, {}};
   const auto end = push(set_up, {{0.55, 0.1}}, 1000).back();
   CHECK(end.block_force == Approx(0.275));
   CHECK(end.plane_force == Approx(0.25 * 1.275));

@@ -22,7 +22,7 @@ const std::vector<Named> honest = {
     {"frictionless", laws::Frictionless{}},
     {"(3.10)", laws::Coulomb{0.5}},
     {"(3.11)", laws::Viscous{200, laws::MassScaling::none}},
-    {"(3.12)", laws::RegularisedCoulomb{200, 0.5, laws::MassScaling::none}},
+    {"(3.12)", laws::RegularisedCoulomb{200, 0.5, laws::MassScaling::none, {}}},
     {"(3.13) with (3.25)", laws::CundallStrack{k_s, {0.5, true}}},
     {"(3.13) with (3.25), k_s = k_n", laws::CundallStrack{k_s_equal, {0.5, true}}},
     {"(3.17)", laws::WaltonBraunMindlin{k_s_equal, 0.5}},

@@ -63,7 +63,7 @@ TEST_CASE("psi_f of the tangential laws against an independent integration") {
   };
   compare("(3.11)", laws::Viscous{3, laws::MassScaling::none},
           [](double v, double, double, double) { return -3 * v; });
-  compare("(3.12)", laws::RegularisedCoulomb{3, mu, laws::MassScaling::none},
+  compare("(3.12)", laws::RegularisedCoulomb{3, mu, laws::MassScaling::none, {}},
           [](double v, double, double, double F) {
             return -std::min(std::abs(3 * v), mu * std::abs(F)) * sign(v);
           });
@@ -238,7 +238,7 @@ const laws::Normal hertz_law =
 const laws::PairCoefficient k_s{3e4, 0, 0, 0}, k_hertz_s{8e5, 0, 0, 0};
 const std::vector<laws::ContactLaws> all_laws = {
     {spring, laws::Frictionless{}},
-    {spring, laws::RegularisedCoulomb{20, 0.3, laws::MassScaling::none}},
+    {spring, laws::RegularisedCoulomb{20, 0.3, laws::MassScaling::none, {}}},
     {spring, laws::Viscous{20, laws::MassScaling::damping}},
     {spring, laws::CundallStrack{k_s, {0.3, true}}},
     {spring, laws::CundallStrack{k_s, {0.3, false}}},

@@ -122,3 +122,21 @@ TEST_CASE("columns of any table become series, by name, by value and by filter")
   speeds.where.clear(), speeds.y = "v_xx";
   CHECK_THROWS_WITH(rows_of_table(speeds, folder / "sweep.csv"), Catch::Contains("v_x"));
 }
+
+TEST_CASE("a table's column over two others is a map: a series for each y, whose name ends with it") {
+  const Folder folder;
+  const auto file = folder / "sweep.csv";
+  std::ofstream(file) << "incline.sin,grains.size_ratio,v_x,verdict\n0.1,2,0.5,steady\n0.2,2,0.7,steady\n"
+                         "0.1,2.5,,stopped\n0.2,2.5,0.9,steady\n";
+  TableColumns columns;
+  columns.x = "incline.sin", columns.y = "grains.size_ratio", columns.z = "v_x";
+  const auto table = rows_of_table(columns, file);
+  REQUIRE(table.rows.size() == 3);  // where v_x is not known there is no row
+  CHECK(table.rows[0].series == "v_x size_ratio=2");
+  CHECK(table.rows[2].series == "v_x size_ratio=2.5");
+  CHECK(table.rows[1].x == 0.2);
+  CHECK(table.rows[1].y == 0.7);
+  columns.where.emplace_back().column = "verdict";
+  columns.where[0].is = "runaway";
+  CHECK_THROWS_WITH(rows_of_table(columns, file), Catch::Contains("passes what `where` asks"));
+}

@@ -127,6 +127,22 @@ std::vector<Golden> plot_goldens() {
                         {"one contour fewer", [](Figure& f) { --f.panels[1].map->contours; }},
                         {"colours of one sign", [](Figure& f) { f.panels[1].map->diverging = false; }},
                         {"upside down", [](Figure& f) { std::ranges::reverse(f.panels[1].map->values); }}}),
+      golden_of("combined", {{"one place of another phase",
+                              [](Figure& f) {
+                                auto &from = f.panels[0].series[1], &to = f.panels[0].series[2];
+                                to.x.push_back(from.x.back()), to.y.push_back(from.y.back());
+                                from.x.pop_back(), from.y.pop_back();
+                                for (auto* s : {&from, &to})
+                                  s->x_err.assign(s->x.size(), unknown), s->y_err = s->x_err;
+                              }},
+                             {"cells for bands", [](Figure& f) { f.panels[1].map->filled = 0; }},
+                             {"one band more", [](Figure& f) { ++f.panels[1].map->filled; }},
+                             {"an arrow to another place",
+                              [](Figure& f) {
+                                f.panels[1].notes[0].arrow = {1.5, 0.3};
+                              }},
+                             {"the second axis 2 % longer", [](Figure& f) { f.panels[2].right->max = 45; }},
+                             {"one axis for both", [](Figure& f) { f.panels[2].series[1].right = false; }}}),
       golden_of("return-map",
                 {{"no diagonal", [](Figure& f) { f.panels[1].references.clear(); }},
                  {"x and y exchanged",

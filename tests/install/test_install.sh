@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # test_install.sh ROOT BUILD: what cmake --install makes works where ROOT and BUILD are gone, and names neither.
 set -euo pipefail
+unset CHUTE_SCENES  # the installed program must find its own
 root=$1 build=$2 here=$(dirname "${BASH_SOURCE[0]}")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

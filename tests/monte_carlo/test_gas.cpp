@@ -59,10 +59,10 @@ Estimate pressure(int side, double phi, bool serial, int samples, int between = 
 TEST_CASE("the pressure of hard discs is that of their virial series, drawn serially or by blocks") {
   for (const double phi : {0.2, 0.5})
     for (const bool serial : {true, false}) {
-      const auto z = pressure<2>(24, phi, serial, 4000);
+      const auto z = pressure<2>(24, phi, serial, 1500);
       CAPTURE(phi, serial, z.mean, *z.error, virial_discs(phi));
-      CHECK(z.mean == Approx(virial_discs(phi)).epsilon(0.005));
-      CHECK(*z.error < 0.0025 * z.mean);
+      CHECK(z.mean == Approx(virial_discs(phi)).epsilon(0.01));
+      CHECK(*z.error < 0.005 * z.mean);
     }
 }
 
@@ -94,11 +94,11 @@ TEST_CASE("drawn serially and by blocks, g(r) is the same") {
 // Carnahan's and Starling's formula lies 0.25 % below the series at φ = 0.3, where its fourth coefficient shows.
 TEST_CASE("the pressure of hard spheres is that of their virial series, and Carnahan's and Starling's") {
   for (const double phi : {0.2, 0.4}) {
-    const auto z = pressure<3>(9, phi, false, 2500);
+    const auto z = pressure<3>(9, phi, false, 900);
     CAPTURE(phi, z.mean, *z.error, virial_spheres(phi), carnahan_starling(phi));
-    CHECK(z.mean == Approx(virial_spheres(phi)).epsilon(0.005));
-    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.006));
-    CHECK(*z.error < 0.0025 * z.mean);
+    CHECK(z.mean == Approx(virial_spheres(phi)).epsilon(0.01));
+    CHECK(z.mean == Approx(carnahan_starling(phi)).epsilon(0.01));
+    CHECK(*z.error < 0.005 * z.mean);
   }
 }
 
@@ -108,8 +108,29 @@ TEST_CASE("the pressure of hard spheres is that of their virial series, and Carn
 // d ln S(0)/dφ, whose first correction is that pairs are N (N − 1)/2 and not N²/2, the second that their number is fixed.
 TEST_CASE("the pressure of a dense fluid of hard spheres is the published one") {
   constexpr double phi = 0.45;
-  const auto z = pressure<3>(9, phi, false, 3000, 16);
+  const auto z = pressure<3>(9, phi, false, 500, 16);
   CAPTURE(z.mean, *z.error, virial_spheres(phi), carnahan_starling(phi), kolafa(phi));
-  CHECK(z.mean == Approx(kolafa(phi)).epsilon(0.006));
-  CHECK(*z.error < 0.003 * z.mean);
+  CHECK(z.mean == Approx(kolafa(phi)).epsilon(0.015));
+  CHECK(*z.error < 0.0075 * z.mean);
+}
+
+// Minutes: with --long. Of spheres by the series up to φ = 0.4: Carnahan's and Starling's formula is itself 0.15 and 0.25 % lower
+// there.
+TEST_CASE("the pressures of hard discs and spheres are the published ones to 0.3 %", "[.exact]") {
+  for (const double phi : {0.2, 0.5}) {
+    const auto z = pressure<2>(24, phi, false, 16000);
+    CAPTURE(phi, z.mean, *z.error, virial_discs(phi));
+    CHECK(z.mean == Approx(virial_discs(phi)).epsilon(0.003));
+    CHECK(*z.error < 0.002 * z.mean);
+  }
+  for (const double phi : {0.2, 0.4}) {
+    const auto z = pressure<3>(9, phi, false, 10000);
+    CAPTURE(phi, z.mean, *z.error, virial_spheres(phi), carnahan_starling(phi));
+    CHECK(z.mean == Approx(virial_spheres(phi)).epsilon(0.003));
+    CHECK(*z.error < 0.002 * z.mean);
+  }
+  const auto z = pressure<3>(9, 0.45, false, 20000, 16);
+  CAPTURE(z.mean, *z.error, carnahan_starling(0.45), kolafa(0.45));
+  CHECK(z.mean == Approx(kolafa(0.45)).epsilon(0.003));
+  CHECK(*z.error < 0.002 * z.mean);
 }

@@ -163,3 +163,47 @@ TEST_CASE("names of series become labels") {
     REQUIRE_NOTHROW(set_text(label, 9));
   }
 }
+
+TEST_CASE("another family sets letters, and STIXGeneral what it lacks") {
+  const int family = font_family("DejaVu Sans");
+  CHECK(font_family("DejaVu Sans") == family);
+  CHECK(family_name(family) == "DejaVu Sans");
+  CHECK_THROWS_WITH(font_family("No Such Grotesk"), Catch::Contains("no font \"No Such Grotesk\""));
+  const auto stix = set_text("flow $v_x$", 10);
+  const FamilyScope scope(family);
+  const auto text = set_text("flow $v_x$", 10);
+  CHECK(text.width > 1.05 * stix.width);  // DejaVu is a wide face
+  for (const auto& run : text.runs) CHECK(family_of(run.face) == family);
+  CHECK(text.runs.at(0).face == in_family(Face::regular, family));
+  CHECK(text.runs.at(1).face == in_family(Face::italic, family));
+  // a sign that only STIXGeneral has, between two letters: all three keep their places
+  auto& fonts = Fonts::mine();
+  char32_t sign = 0x2190;
+  const auto only_stix = [&](char32_t c) {
+    return fonts.has(Face::regular, c) && !fonts.has(in_family(Face::regular, family), c);
+  };
+  while (sign < 0x1d7ff && !only_stix(sign)) ++sign;
+  REQUIRE(only_stix(sign));
+  const auto mixed = set_text("a" + encode_utf8(sign) + "b", 10);
+  std::string read;
+  double last = -1;
+  for (const auto& run : mixed.runs) {
+    read += run.text;
+    for (const auto& glyph : run.glyphs) {
+      CHECK(glyph.at.x() > last);
+      last = glyph.at.x();
+    }
+  }
+  CHECK(read == "a" + encode_utf8(sign) + "b");
+  REQUIRE(mixed.runs.size() == 3);
+  CHECK(mixed.runs[1].face == Face::regular);
+}
+
+TEST_CASE("a family's scope ends with its block") {
+  const auto before = set_text("x", 10).runs.at(0).face;
+  {
+    const FamilyScope scope(font_family("DejaVu Serif"));
+    CHECK(set_text("x", 10).runs.at(0).face != before);
+  }
+  CHECK(set_text("x", 10).runs.at(0).face == before);
+}

@@ -239,5 +239,5 @@ TEST_CASE("A contact network has its forces") {
   content.cells = {{"nonsense", {2, 5}}};
   vtk_files::write(content, folder / "d.vtp");
   CHECK_THAT(complaint([&] { read::read_network(folder / "d.vtp"); }),
-             Contains("no cell array \"normal_force\""));
+             Contains("no array \"normal_force\"") && Contains("there are: nonsense"));
 }

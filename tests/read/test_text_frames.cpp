@@ -240,7 +240,7 @@ TEST_CASE("Wrong dumps are one line with the line's number") {
   expect(head + "1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS x y z radius\n1 2 3 1\n",
          ":6: an edge of the box, expected 3 numbers");
   expect(head + "1\nITEM: ATOMS xs ys zs radius\n0 0 0 1\n", "no box");
-  expect("ITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n1\n", "no part of a dump of atoms");
+  expect("ITEM: TIMESTEP\n5\nITEM: NUMBER OF GRIDS\n1\n", "no part of a dump of atoms");
   write_atomically(folder / "d", head + "1\n" + box + "ITEM: ATOMS x y z c_1\n1 2 3 4\n");
   CHECK_THAT(complaint([&] { only_frame(folder / "d"); }), Contains("no array of radii") && Contains("c_1"));
 }

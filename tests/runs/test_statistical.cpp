@@ -61,6 +61,23 @@ TEST_CASE(
         {"grains.count=60", "run.duration=4", "output.frames={every=2}", "engine.sweeps=300"});
 }
 
+TEST_CASE("every table that goes with the run's clock names it: sweeps, not time") {
+  const Folder folder;
+  run::RunOptions options;
+  options.directory = folder / "gas";
+  run::run_scene(scene::read_scene(scenes + "hard-discs.toml",
+                                   {"run.duration=60", "output.series.every=10", "output.moments={every=20}",
+                                    "output.velocities={every=20}", "output.diffusion={every=1, longest=30}",
+                                    "engine.equilibrate=20"}),
+                 options);
+  for (const char* name : {"series.csv", "moments.csv", "velocities.csv", "diffusion.csv"}) {
+    const auto text = content(options.directory / name);
+    CAPTURE(name, text.substr(0, 300));
+    CHECK(text.find("\nsweeps,") != std::string::npos);
+    CHECK(text.find("\ntime,") == std::string::npos);
+  }
+}
+
 TEST_CASE("a packing laid bottom to top comes to rest under soft forces without flying apart") {
   const Folder folder;
   run::RunOptions options;

@@ -12,7 +12,7 @@ struct SmallChute {
 
   static laws::ContactLaws contact(double viscosity = 100, double friction = 0.5) {
     return {laws::SpringDashpot::from_restitution(stiffness, restitution),
-            laws::RegularisedCoulomb{viscosity, friction, laws::MassScaling::none}};
+            laws::RegularisedCoulomb{viscosity, friction, laws::MassScaling::none, {}}};
   }
   /// t_n of two grains of unit mass.
   static double contact_time() {

@@ -90,7 +90,7 @@ TEST_CASE("a head-on collision loses 1/2 m_eff v² (1 − e_n²), nothing by she
   add_ball<2>(grains, {{0, 0}}, {{v, 0}}, 0.5, 1);
   add_ball<2>(grains, {{1.01, 0}}, {{0, 0}}, 0.5, 2);
   const laws::ContactLaws contact{laws::SpringDashpot::from_restitution(1e5, e_n),
-                                  laws::RegularisedCoulomb{100, 0.5, laws::MassScaling::none}};
+                                  laws::RegularisedCoulomb{100, 0.5, laws::MassScaling::none, {}}};
   soft::SoftEngine<2> engine(grains, setup<2>(contact, 5e-6, 1));
   REQUIRE(through_one_contact(engine) > 0);
   const auto e = engine.energy();

@@ -112,7 +112,7 @@ TEST_CASE("the energy error of the elastic gas falls with the step") {
 TEST_CASE("momentum is kept to rounding, with damping and friction too") {
   const auto scheme = GENERATE(soft::Scheme::gear5, soft::Scheme::verlet);
   const laws::ContactLaws rough{laws::SpringDashpot::from_restitution(stiffness, 0.7),
-                                laws::RegularisedCoulomb{50, 0.4, laws::MassScaling::none}};
+                                laws::RegularisedCoulomb{50, 0.4, laws::MassScaling::none, {}}};
   check_momentum<2>(smooth(stiffness, 0), scheme, 64, 1.25);
   check_momentum<2>(rough, scheme, 64, 1.25);
   check_momentum<3>(rough, scheme, 125, 1.2);

@@ -49,7 +49,7 @@ After oblique(double psi, double restitution, const laws::ContactLaws& contact, 
 
 laws::ContactLaws coulomb(double e_n, double viscosity, double friction, double stiffness = k) {
   return {laws::SpringDashpot::from_restitution(stiffness, e_n),
-          laws::RegularisedCoulomb{viscosity, friction, laws::MassScaling::none}};
+          laws::RegularisedCoulomb{viscosity, friction, laws::MassScaling::none, {}}};
 }
 
 // γ_s at which slip decays by 3.5 γ_s δt / m_eff = 0.16 per step of t_n/200: fast against t_n, and stable.

@@ -10,7 +10,7 @@ namespace {
 /// Viscous friction, and laws that remember: directions are part of a memory in 3D.
 const std::vector<laws::ContactLaws> kinds{
     {laws::SpringDashpot::from_restitution(1e5, 0.8),
-     laws::RegularisedCoulomb{30, 0.3, laws::MassScaling::none}},
+     laws::RegularisedCoulomb{30, 0.3, laws::MassScaling::none, {}}},
     {laws::WaltonBraun::from_restitution(1e5, 0.8),
      laws::CundallStrack{laws::PairCoefficient{3e4}, laws::CutOffSpring{0.3, true}}}};
 

@@ -13,7 +13,7 @@ constexpr double stiffness = 1e5, e_n = 0.6, dt = 1e-4;
 
 laws::ContactLaws contact(double friction, double restitution = e_n) {
   return {laws::SpringDashpot::from_restitution(stiffness, restitution, true),
-          laws::RegularisedCoulomb{300, friction, laws::MassScaling::none}};
+          laws::RegularisedCoulomb{300, friction, laws::MassScaling::none, {}}};
 }
 
 template <int D>

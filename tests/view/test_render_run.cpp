@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -281,6 +282,28 @@ TEST_CASE("What would do nothing in this run alone is told") {
   const auto told = view::render_run(job).notes;
   REQUIRE(told.size() == 1);
   CHECK_THAT(told[0], Contains("--trails does nothing here: there is one frame"));
+}
+
+TEST_CASE("Pictures are PNG with their size in print, or pages of that size") {
+  const Folder folder;
+  make_run(folder.path, 2);
+  auto job = job_for(folder, "pictures");
+  job.dpi = 254;  // ten pixels a millimetre
+  view::render_run(job);
+  const auto png = read_file(job.output / "000001.png");
+  const auto phys = png.find("pHYs");
+  REQUIRE(phys != std::string::npos);
+  CHECK(png.substr(phys + 4, 9) == std::string("\0\0\x27\x10\0\0\x27\x10\1", 9));  // 10,000 a metre
+  for (const auto format : {view::StillFormat::pdf, view::StillFormat::svg}) {
+    job.format = format;
+    CHECK(view::render_run(job).drawn == 2);
+  }
+  CHECK(read_file(job.output / "000001.pdf").starts_with("%PDF"));
+  const auto svg = read_file(job.output / "000001.svg");
+  CHECK(svg.find(fmt::format("width=\"{:g}pt\"", job.style.width * 72 / 254.0).substr(0, 10)) !=
+        std::string::npos);
+  job.movie = folder.path / "m.png";
+  CHECK_THROWS_WITH(view::render_run(job), Contains("as PNG"));
 }
 
 TEST_CASE("a movie of a speed shows as much time, whatever lies between its frames") {

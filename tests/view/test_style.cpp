@@ -66,6 +66,9 @@ TEST_CASE("Every part of a style is part of what a frame is drawn from") {
   differs([](auto& s) { s.time = "none"; });
   differs([](auto& s) { s.time_scale = 1000; });
   differs([](auto& s) { s.font_size = 20; });
+  differs([](auto& s) { s.opacity = 0.5; });
+  differs([](auto& s) { s.copy_reach = 2; });
+  differs([](auto& s) { s.camera_keys.resize(1); });
   for (bool view::FrameStyle::*flag :
        {&view::FrameStyle::tilt, &view::FrameStyle::arrows, &view::FrameStyle::chains,
         &view::FrameStyle::copies, &view::FrameStyle::occlusion, &view::FrameStyle::spin,

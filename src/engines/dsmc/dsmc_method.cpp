@@ -88,6 +88,9 @@ std::optional<Refusal> DsmcMethod::refusal(const engines::Setting& s) const {
                        : "missing: without domain.size along every axis no time between collisions is known"};
   if (dense == Dense::esmc && cell_side(s) < s.mean_diameter)
     return Refusal{"engine.cell", "must not be smaller than a grain with dense = \"esmc\""};
+  double cells = 1;
+  for (const double length : s.size) cells *= length > 0 ? std::max(1.0, length / cell_side(s)) : 1;
+  if (const auto why = too_many_cells(cells, s.grains)) return Refusal{"engine.cell", *why};
   return {};
 }
 

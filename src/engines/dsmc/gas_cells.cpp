@@ -22,13 +22,13 @@ constexpr int probes = 8;
 /// Cells per grain at most: beyond, where hardly a grain is, they fly freely. At the start a finer grid is refused.
 constexpr std::size_t most_per_grain = 20, fewest_cells = 100000;
 
-[[noreturn]] void too_fine(double cells) {
-  throw InputError(
-      fmt::format("engine.cell: makes {:.3g} cells, at most {} and {} a grain are possible; use a larger one",
-                  cells, fewest_cells, most_per_grain));
-}
-
 }  // namespace
+
+std::optional<std::string> too_many_cells(double cells, std::size_t grains) {
+  if (cells <= static_cast<double>(std::max(fewest_cells, most_per_grain * grains))) return {};
+  return fmt::format("makes {:.3g} cells, at most {} and {} a grain are possible; use a larger one", cells,
+                     fewest_cells, most_per_grain);
+}
 
 template <int D>
 GasCells<D>::GasCells(const Grains<D>& grains, const DsmcSetup<D>& setup, const Obstacles<D>& obstacles)
@@ -45,7 +45,7 @@ GasCells<D>::GasCells(const Grains<D>& grains, const DsmcSetup<D>& setup, const 
   for (int k = 0; k < D; ++k) lay(k, grains);
   double cells = 1;
   for (const int n : many_) cells *= n;
-  if (cells > static_cast<double>(std::max(fewest_cells, most_per_grain * grains.moving))) too_fine(cells);
+  if (const auto why = too_many_cells(cells, grains.moving)) throw InputError("engine.cell: " + *why);
   add_volumes();
   cell_.resize(grains.moving), order_.resize(grains.moving);
 }
@@ -56,7 +56,8 @@ void GasCells<D>::lay(int k, const Grains<D>& grains) {
   const auto a = static_cast<std::size_t>(k);
   const auto cells_in = [&](double length) {
     const double many = length / setup_.cell;
-    if (!(many < std::numeric_limits<int>::max() / 2)) too_fine(many);
+    if (!(many < std::numeric_limits<int>::max() / 2))
+      throw InputError("engine.cell: " + too_many_cells(many, 0).value());
     return static_cast<int>(many);
   };
   if (setup_.domain.periodic(k)) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <cereal/types/vector.hpp>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/wrong_state.hpp"
@@ -9,6 +11,9 @@
 #include "engines/dsmc/obstacles.hpp"
 
 namespace chute::dsmc {
+
+/// Why so many cells are not possible for so many grains; nothing if they are.
+std::optional<std::string> too_many_cells(double cells, std::size_t grains);
 
 /// The cells in which grains find their partners. Along a period a whole number of them fits; between two level walls they
 /// fill the room of the centres; away from a floor layers are added where grains come to. Grains that leave the cells

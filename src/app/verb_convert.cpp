@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "app/file_meanings.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/say.hpp"
+#include "app/verbs.hpp"
+#include "common/error.hpp"
+#include "common/toml_reader.hpp"
+#include "write/convert.hpp"
+
+namespace chute::app {
+namespace {
+
+struct ConvertArguments {
+  std::vector<std::string> sources;
+  std::string folder, format;
+  FileMeanings meanings;
+  bool one_file = false, from_one = false, quiet = false;
+};
+
+write::Format format_of(const std::string& word) {
+  const std::vector<std::string> words(write::format_words.begin(), write::format_words.end());
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (word == words[i]) return static_cast<write::Format>(i);
+  const auto hint = nearest(word, words);
+  throw InputError(fmt::format("--to {}: not known{}, allowed: {}", word,
+                               hint.empty() ? "" : fmt::format(", did you mean {}?", hint),
+                               fmt::join(words, ", ")));
+}
+
+void convert(const ConvertArguments& a) {
+  write::ConvertJob job;
+  job.sources.assign(a.sources.begin(), a.sources.end());
+  job.folder = a.folder;
+  job.format = format_of(a.format);
+  job.meanings = a.meanings.read();
+  job.one_file = a.one_file, job.from_one = a.from_one;
+  watch_for_interrupt();
+  Progress progress("convert", a.quiet);
+  job.progress = [&](std::size_t done, std::size_t all) {
+    progress.show(static_cast<double>(done) / static_cast<double>(all), fmt::format("{} of {}", done, all));
+    return !interrupted();
+  };
+  const auto report = write::convert(job);
+  if (a.quiet) return;
+  if (report.left_out > 0)
+    tell("convert: left out {} grain{} (of all frames) without a place or a radius > 0\n", report.left_out,
+         report.left_out == 1 ? "" : "s");
+  if (report.tilted) tell("convert: a {} file has no place for a tilted box: it is left out\n", a.format);
+  tell("convert: {} frame{} in {}\n", report.frames, report.frames == 1 ? "" : "s", a.folder);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app) {
+  auto* verb = app.add_subcommand("convert", "Write frames as files of other programs");
+  auto a = std::make_shared<ConvertArguments>();
+  verb->add_option(
+          "sources", a->sources,
+          "run directory; or VTK files of grains, dumps of LAMMPS or XYZ files, as chute render takes them")
+      ->required();
+  verb->add_option("--to", a->format,
+                   "lammps-dump, xyz (extended), csv, or vtp (VTK, with an index of times)")
+      ->required();
+  verb->add_option("-o,--output", a->folder,
+                   "folder for NNNNNN.dump, .xyz, .csv or frames/NNNNNN.vtp; new or empty")
+      ->required();
+  verb->add_flag("--one-file", a->one_file, "all frames in one file, frames.dump, .xyz or .csv");
+  verb->add_flag("--from-one", a->from_one,
+                 "dumps: ids and types begin with 1, as LAMMPS wants of what it reads; default as they are");
+  a->meanings.add_options(*verb);
+  verb->add_flag("--quiet", a->quiet, "no progress");
+  verb->footer("Example: chute convert out/demo --to lammps-dump -o out/dumps");
+  verb->callback([a] { convert(*a); });
+}
+
+}  // namespace chute::app

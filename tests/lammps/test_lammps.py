@@ -1,0 +1,260 @@
+"""LAMMPS moves grains as the soft engine does: test_lammps.py CHUTE. Exit status 77 where the program lmp is missing."""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+chute = os.path.abspath(sys.argv[1])
+THERE = bool(shutil.which("lmp"))
+TWO = """title = "two grains"
+[incline]
+angle = "0 deg"
+gravity = 0
+[domain]
+periodic = []
+[bed]
+kind = "none"
+[grains]
+start = { from = "two.vtk" }
+[contact.normal]
+law = "spring-dashpot"
+stiffness = 1e4
+restitution = 0.6
+[contact.tangential]
+law = "coulomb-viscous"
+viscosity = 20
+friction = 0.5
+[engine]
+integrator = "verlet"
+[run]
+duration = 0.2
+[output]
+contacts = true
+frames = { every = 0.1 }
+series = { every = 0.1 }
+"""
+# damping and viscosity with the reduced mass, as gran/hooke has them: the same to the last digits with any sizes
+FLOW = """title = "a flow"
+seed = 3
+[incline]
+angle = "20 deg"
+[bed]
+count = 20
+[grains]
+count = 60
+diameter = { mean = 1, std = 0.05 }
+start = { velocity = 2, spread = 1 }
+[contact.normal]
+law = "spring-dashpot"
+stiffness = 1e4
+damping = 50
+mass_scaling = "damping"
+[contact.tangential]
+law = "coulomb-viscous"
+viscosity = 50
+friction = 0.5
+mass_scaling = "damping"
+[engine]
+integrator = "verlet"
+[run]
+duration = 1
+[output]
+contacts = true
+frames = { every = 0.1 }
+series = { every = 0.1 }
+profiles = { from = 0.5, every = 0.1 }
+"""
+BOX = FLOW.replace("seed = 3", "seed = 3\ndimensions = 3").replace("[bed]\ncount = 20", """[domain]
+periodic = ["x"]
+size = [8, 6]
+[[wall]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+friction = 0.3
+[[wall]]
+point = [0, 6, 0]
+normal = [0, -1, -0.1]
+[bed]
+kind = "flat\"""").replace(", std = 0.05", "")
+
+
+def grains(file, rows):
+    """Two grains as VTK: (place, radius, velocity, spin) each."""
+    def text(values):
+        return " ".join("%.17g" % v for v in values)
+    lines = ["# vtk DataFile Version 3.0", "two", "ASCII", "DATASET POLYDATA", "POINTS 2 double"]
+    lines += [text(r) for r, _, _, _ in rows] + ["POINT_DATA 2", "FIELD FieldData 3", "radius 1 2 double"]
+    lines += [text(R for _, R, _, _ in rows), "velocity 3 2 double"] + [text(v) for _, _, v, _ in rows]
+    lines += ["angular_velocity 3 2 double"] + [text(w) for _, _, _, w in rows]
+    with open(file, "w", encoding="utf-8") as out:
+        out.write("\n".join(lines) + "\n")
+
+
+HEAD_ON = [((2, 2, 0), .5, (1, 0, 0), (0, 0, 0)), ((3.05, 2, 0), .5, (-1, 0, 0), (0, 0, 0))]
+OBLIQUE = [((2, 2, 0), .5, (1, .1, 0), (0, 0, .5)), ((3, 2.4, 0), .4, (-1, 0, 0), (0, 0, -2))]
+IN_SPACE = [((2, 2, 2), .5, (1, .1, .2), (.3, 1, .5)), ((3, 2.3, 2.1), .4, (-1, 0, .1), (0, .4, -2))]
+
+
+def table(path):
+    with open(path, encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+class Lammps(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        os.mkdir(self.path("tmp"))  # where LAMMPS works
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def call(self, *words, status=0, path=None):
+        around = dict(os.environ, TMPDIR=self.path("tmp"), **({"PATH": path} if path else {}))
+        done = subprocess.run([chute, *map(str, words)], capture_output=True, text=True, cwd=self.folder, env=around)
+        self.assertEqual(done.returncode, status, (words, done.stdout, done.stderr))
+        return done
+
+    def run_both(self, scene, *settings):
+        for method in ("soft", "lammps"):
+            words = [word for setting in settings for word in ("--set", setting)]
+            self.call("run", scene, "-o", method, "--force", "--quiet", "--set", "engine.method=" + method, *words)
+
+    def after(self, run, frame):
+        """Places, velocities and spins of a frame."""
+        shutil.rmtree(self.path("csv"), ignore_errors=True)
+        self.call("convert", run, "--to", "csv", "-o", "csv", "--quiet")
+        columns = table(self.path("csv", "%06d.csv" % frame))
+        return [float(v) for name, values in columns.items() if name[0] in "xyz" or name.startswith(("vel", "angular"))
+                for v in values]
+
+    def apart(self, *settings, place=OBLIQUE):
+        """Largest difference between both after a collision."""
+        grains(self.path("two.vtk"), place)
+        self.write("two.toml", TWO)
+        self.run_both("two.toml", *settings, *(["dimensions=3"] if place is IN_SPACE else []))
+        before = self.after("soft", 0)
+        soft, other = self.after("soft", 2), self.after("lammps", 2)
+        self.assertGreater(max(abs(a - b) for a, b in zip(before, soft)), 0.5)  # they did collide
+        return max(abs(a - b) for a, b in zip(soft, other))
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_a_collision_is_the_same_to_the_last_digits(self):
+        hertz = 'contact.normal={law="%s",young=1e5,poisson=0.3,at_velocity=2%s}'
+        smooth = 'contact.tangential={law="frictionless"}'
+        self.assertLess(self.apart(place=HEAD_ON), 2e-13)
+        for place in (OBLIQUE, IN_SPACE):
+            for settings in ([], ["contact.attraction=false"], [hertz % ("hertz", ""), smooth],
+                             [hertz % ("hertz-linear-damping", ",restitution=0.7"), smooth],
+                             [hertz % ("hertz-kuwabara-kono", ",restitution=0.7"), smooth]):
+                self.assertLess(self.apart(*settings, place=place), 2e-13, (place, settings))
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_springs_across_agree_as_the_step_shrinks(self):
+        """LAMMPS's begin with a whole step of slip, chute's when the surfaces met. In space chute's also turn with the grains."""
+        spring = 'contact.tangential={law="%s",friction=0.5,stiffness_ratio=0.8%s}'
+        hertz = 'contact.normal={law="hertz",young=1e5,poisson=0.3,at_velocity=2}'
+        steps = "engine.steps_per_contact=%d"
+        hooke = [self.apart(spring % ("cundall-strack", ""), steps % n) for n in (50, 1600)]
+        self.assertLess(hooke[0], 0.1)
+        self.assertLess(hooke[1], hooke[0] / 8)
+        slow = [self.apart(hertz, spring % ("mindlin", ",shrink=false"), steps % n) for n in (50, 400)]
+        self.assertLess(slow[0], 1e-6)
+        self.assertLess(slow[1], slow[0] / 6)
+        # `granular` has the lever R - xi/2: what it differs by does not go away, and is of that size
+        self.assertLess(self.apart(hertz, spring % ("mindlin", "")), 0.01)
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_a_flow_is_the_same_here_there_and_on_two_ranks(self):
+        self.write("flow.toml", FLOW)
+        self.run_both("flow.toml")
+        self.call("run", "flow.toml", "--set", "engine.method=lammps", "--ranks", 2, "-o", "ranks", "--quiet")
+        self.call("export", "flow.toml", "--lammps", "deck", "--quiet")
+        subprocess.run(["lmp", "-in", "in.lammps", "-log", "none", "-screen", "none"], cwd=self.path("deck"), check=True)
+        self.call("import", "deck", "-o", "back", "--quiet")
+        soft = table(self.path("soft", "series.csv"))
+        for run in ("lammps", "ranks", "back"):
+            other = table(self.path(run, "series.csv"))
+            for name in ("time", "x", "v_x", "v_y", "omega", "contacts", "translation", "gravity_work"):
+                for a, b in zip(soft[name], other[name], strict=True):
+                    self.assertAlmostEqual(float(a), float(b), delta=1e-9 * max(1, abs(float(a))), msg=(run, name))
+            self.assertEqual(set(other["elastic"]), {""})
+            profile, own = table(self.path(run, "profiles.csv")), table(self.path("soft", "profiles.csv"))
+            for name in ("h", "grains", "eta", "v_x", "coordination"):
+                for a, b in zip(own[name], profile[name], strict=True):
+                    self.assertAlmostEqual(float(a or 0), float(b or 0), delta=1e-8, msg=(run, name))
+            # forces between steps are those of the step's end, in chute those of its middle
+            stress = [(float(a), float(b)) for a, b in zip(own["contact_yy"], profile["contact_yy"]) if float(a) > 0.1]
+            self.assertTrue(stress)
+            for a, b in stress:
+                self.assertAlmostEqual(a, b, delta=0.05 * a)
+        self.call("render", "back", "-o", "pictures", "--size", "160x120", "--frames", "3", "--chains", "--jobs", "1", "--quiet")
+        self.call("measure", "back", "-o", "measured", "--from", 0.5, "--only", "profiles", "--quiet")
+        self.assertEqual(table(self.path("back", "profiles.csv")), table(self.path("measured", "profiles.csv")))
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_walls_and_many_sizes(self):
+        self.write("box.toml", BOX)
+        self.run_both("box.toml")
+        soft, other = self.after("soft", 10), self.after("lammps", 10)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
+        counts = [self.call("info", run + "/contacts/000002.vtp").stdout.split("\n")[1] for run in ("soft", "lammps")]
+        self.assertEqual(counts[0], counts[1])
+        # more sizes than types: one restitution for all by `damping tsuji`
+        self.write("flow.toml", FLOW)
+        self.run_both("flow.toml", "grains.count=450", "bed.count=150", "run.duration=0.1", 'contact.tangential={law="frictionless"}',
+                      'contact.normal={law="spring-dashpot",stiffness=1e4,restitution=0.6}')
+        soft, other = self.after("soft", 1), self.after("lammps", 1)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-10)
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_it_goes_on_where_it_stopped(self):
+        self.write("flow.toml", FLOW)
+        self.call("run", "flow.toml", "--set", "engine.method=lammps", "-o", "run", "--set", "run.duration=0.5", "--quiet")
+        self.call("run", "run", "--resume", "--set", "run.duration=1", "--quiet")
+        self.run_both("flow.toml")
+        series, whole = table(self.path("run", "series.csv")), table(self.path("soft", "series.csv"))
+        self.assertEqual(len(series["x"]), len(whole["x"]))
+        self.assertAlmostEqual(float(series["x"][-1]), float(whole["x"][-1]), delta=1e-3)
+        self.assertEqual([name for name in os.listdir(self.path("tmp")) if name.startswith("chute-")], [])
+
+    def test_what_it_has_not_is_refused_in_a_line(self):
+        self.write("flow.toml", FLOW)
+
+        def line(*words, **how):
+            said = self.call(*words, status=2, **how).stderr
+            self.assertEqual(said.count("\n"), 1, said)
+            return said
+        out = ("--lammps", "deck")
+        self.write("gear.toml", FLOW.replace('"verlet"', '"gear5"'))
+        self.assertIn('gear.toml:22: engine.integrator: "gear5" is no integrator of LAMMPS', line("export", "gear.toml", *out))
+        self.write("gear.toml", FLOW.replace('integrator = "verlet"', ""))
+        self.assertIn('"gear5", the default,', line("export", "gear.toml", *out))
+        self.write("law.toml", FLOW.replace('law = "coulomb-viscous"\nviscosity = 50', 'law = "coulomb"')
+                   .replace('friction = 0.5\nmass_scaling = "damping"', "friction = 0.5"))
+        self.assertIn('law.toml:17: contact.tangential.law: "coulomb": LAMMPS has no such law', line("export", "law.toml", *out))
+        self.assertIn("LAMMPS moves soft grains", line("export", "flow.toml", "--set", "engine.method=event", *out))
+        self.assertIn("knows only planes", line("export", "flow.toml", "--set", "wall=[{from=[0,9],to=[5,9]}]", *out))
+        self.assertIn("--ranks", line("run", "flow.toml", "--ranks", 2))
+        self.assertIn("has LAMMPS run there", line("import", self.exported()))
+        self.assertFalse(os.path.exists(self.path("deck")))
+        said = line("run", "flow.toml", "--set", "engine.method=lammps", "-o", "run", path=self.folder)
+        self.assertIn('"lammps" needs the program lmp, Debian\'s package lammps: apt-get install lammps', said)
+        self.assertFalse(os.path.exists(self.path("run")))
+
+    def exported(self):
+        self.call("export", "flow.toml", "--lammps", "there", "--quiet")
+        return "there"
+
+
+if __name__ == "__main__":
+    result = unittest.main(argv=sys.argv[:1], exit=False).result
+    sys.exit(1 if not result.wasSuccessful() else 0 if THERE else 77)
