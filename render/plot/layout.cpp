@@ -224,6 +224,14 @@ class Layouter {
     return names;
   }
 
+  /// Lines of a table of names whose colours could not be told beside them get markers: never colour alone.
+  void mark_lines(int panel) {
+    const auto factors = factors_in(figure_, panel);
+    if (!factors) return;
+    for (auto& [name, look] : looks_)
+      if (factors->of.count(name)) look.marked = true;
+  }
+
   double heading_height(const Panel& p, double width) const {
     double height = 0;
     for (const auto& line : heading_lines(p, look_.legend_size, width))
@@ -384,6 +392,7 @@ class Layouter {
         without_names_.assign(n, true);
       else
         without_names_[i] = true;
+      mark_lines(has_common_legend(figure_) ? -1 : static_cast<int>(i));
       make_legends();
       settled_ = false;
       return out;
@@ -432,7 +441,10 @@ class Layouter {
       std::size_t panel = 0;
       for (std::size_t i = 0; i < occupied.size(); ++i) {
         if (legend.panel != -1 && legend.panel != static_cast<int>(i)) continue;
+        // where it is asked for, else where it covers nothing, else where at least no text is
         auto room = occupied[i].room_for(width, height, inset_from_frame, legend.wanted);
+        if (!room && in_corner(legend.wanted))
+          room = occupied[i].room_for(width, height, inset_from_frame, Place::automatic);
         if (!room && in_corner(legend.wanted))
           if (const auto at = occupied[i].beside_texts(width, height, inset_from_frame, legend.wanted))
             room = Occupancy::Room{*at, 0};

@@ -62,7 +62,7 @@ void LegendBlock::add(const Figure& figure, const Factors& factors, const std::v
     const Series* s = any_of([&](auto& at, auto&) { return at.style == static_cast<int>(k); });
     if (!s) continue;
     SeriesLook ink = looks_->at(s->name);
-    ink.color = look_->ink, ink.marker = 0;
+    ink.color = look_->ink, ink.marker = 0, ink.marked = false;
     put(factors.styles[k], s->kind, ink, label_of_factor(figure, factors.styles[k]));
   }
   for (const auto* s : series)

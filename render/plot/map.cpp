@@ -304,4 +304,36 @@ void draw_bar(DisplayList& list, const Look& look, const Rect& frame, const Map&
   boxes.push_back({Box::Kind::axis_label, bar.label.box_at(at, 1), panel, map.label});
 }
 
+void draw_chains(Painter& painter, const Frame& frame, const Chains& chains) {
+  constexpr double thickest = 0.6, thinnest = 0.04;  // of a typical length; points
+  std::vector<Point> begin, end;
+  double length = 0, heaviest = 0;
+  for (std::size_t k = 0; k < chains.x.size(); ++k) {
+    begin.push_back(frame.at(chains.x[k] - chains.dx[k] / 2, chains.y[k] - chains.dy[k] / 2));
+    end.push_back(frame.at(chains.x[k] + chains.dx[k] / 2, chains.y[k] + chains.dy[k] / 2));
+    length += std::hypot(end[k].x() - begin[k].x(), end[k].y() - begin[k].y()) /
+              static_cast<double>(chains.x.size());
+    heaviest = std::max(heaviest, chains.weight[k]);
+  }
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    Stroke stroke;
+    stroke.width = heaviest > 0 ? thickest * length * chains.weight[k] / heaviest : 0;
+    stroke.cap = Cap::round;
+    if (stroke.width < thinnest) continue;
+    Path path;
+    path.move(begin[k]).line(end[k]);
+    painter.list.stroke(std::move(path), stroke, painter.look.ink);
+  }
+}
+
+void mark_crowd(Occupancy& occupied, const Frame& frame, const Map& map) {
+  const auto x = cell_edges(map.x), y = cell_edges(map.y);
+  for (std::size_t j = 0; j < map.y.size(); ++j)
+    for (std::size_t i = 0; i < map.x.size(); ++i)
+      if (std::isfinite(map.values[j * map.x.size() + i])) {
+        const Point low = frame.at(x[i], y[j]), high = frame.at(x[i + 1], y[j + 1]);
+        occupied.mark({low.x(), high.y(), high.x(), low.y()});
+      }
+}
+
 }  // namespace chute::plot

@@ -33,4 +33,11 @@ double bar_above(const Look& look, const Map& map, double height);
 void draw_bar(DisplayList& list, const Look& look, const Rect& frame, const Map& map, int panel,
               std::vector<Box>& boxes);
 
+/// The thickest line is as thick as the middles of neighbours are far apart, about; those that would be too thin to see are
+/// left out.
+void draw_chains(Painter& painter, const Frame& frame, const Chains& chains);
+
+/// Where dots became a density (density.hpp), its cells are data that no text may cover, as the dots were.
+void mark_crowd(Occupancy& occupied, const Frame& frame, const Map& map);
+
 }  // namespace chute::plot

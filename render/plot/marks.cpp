@@ -72,9 +72,32 @@ class SeriesPainter {
                    {width, dashed ? dash_pattern(ink_.dash, width) : std::vector<double>{}, Cap::butt,
                     has_bins(s_.kind) ? Join::miter : Join::round},
                    s_.faint ? ink_.color.with_alpha(0.35) : ink_.color);
+    if (ink_.marked && s_.kind == Kind::line) marks_on_the_way(points);
     p_.list.tag(Tag::Kind::curve, p_.panel, s_.name, 0, first);
     mark_polyline(p_.occupied, points, frame_.rect, width);
     if (s_.kind == Kind::steps) mark_bins();
+  }
+
+  /// A marker every so often: at other places on each curve, so that those that run together can be told apart.
+  void marks_on_the_way(const std::vector<Point>& points) {
+    constexpr double step = 14;  // in markers
+    const double size = p_.look.marker_size, between = step * size;
+    const auto shape = ink_.shape(size);
+    const Rect inside = frame_.rect.grown(-size / 2);
+    constexpr int phases = 5;
+    double to_next = between * (0.3 + static_cast<double>(ink_.marker % phases) / phases);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      Point a = points[i - 1], b = points[i];
+      if (!a.allFinite() || !b.allFinite() || !cut_segment(a, b, frame_.rect)) continue;
+      const double length = (b - a).norm();
+      for (; to_next < length; to_next += between) {
+        const Point at = a + (to_next / length) * (b - a);
+        if (!inside.contains(at)) continue;
+        draw_marker(p_.list, p_.look, shape, ink_.color, at);
+        p_.occupied.mark(shape.path.bounds().moved(at));
+      }
+      to_next -= length;
+    }
   }
 
   void dots() {
@@ -270,41 +293,6 @@ class SeriesPainter {
 
 }  // namespace
 
-/// The thickest line is as thick as the middles of neighbours are far apart, about; those that would be too thin to see are
-/// left out.
-static void draw_chains(Painter& painter, const Frame& frame, const Chains& chains) {
-  constexpr double thickest = 0.6, thinnest = 0.04;  // of a typical length; points
-  std::vector<Point> begin, end;
-  double length = 0, heaviest = 0;
-  for (std::size_t k = 0; k < chains.x.size(); ++k) {
-    begin.push_back(frame.at(chains.x[k] - chains.dx[k] / 2, chains.y[k] - chains.dy[k] / 2));
-    end.push_back(frame.at(chains.x[k] + chains.dx[k] / 2, chains.y[k] + chains.dy[k] / 2));
-    length += std::hypot(end[k].x() - begin[k].x(), end[k].y() - begin[k].y()) /
-              static_cast<double>(chains.x.size());
-    heaviest = std::max(heaviest, chains.weight[k]);
-  }
-  for (std::size_t k = 0; k < begin.size(); ++k) {
-    Stroke stroke;
-    stroke.width = heaviest > 0 ? thickest * length * chains.weight[k] / heaviest : 0;
-    stroke.cap = Cap::round;
-    if (stroke.width < thinnest) continue;
-    Path path;
-    path.move(begin[k]).line(end[k]);
-    painter.list.stroke(std::move(path), stroke, painter.look.ink);
-  }
-}
-
-/// Where dots became a density (density.hpp), its cells are data that no text may cover, as the dots were.
-static void mark_crowd(Occupancy& occupied, const Frame& frame, const Map& map) {
-  const auto x = cell_edges(map.x), y = cell_edges(map.y);
-  for (std::size_t j = 0; j < map.y.size(); ++j)
-    for (std::size_t i = 0; i < map.x.size(); ++i)
-      if (std::isfinite(map.values[j * map.x.size() + i])) {
-        const Point low = frame.at(x[i], y[j]), high = frame.at(x[i + 1], y[j + 1]);
-        occupied.mark({low.x(), high.y(), high.x(), low.y()});
-      }
-}
-
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks) {
   painter.list.items.emplace_back(ClipBegin{frame.rect});
@@ -375,7 +363,8 @@ void draw_sample(DisplayList& list, const Look& style, Kind kind, const SeriesLo
     const auto shape = SeriesPainter::dot_shape(2.2 * look.dot_radius, ink.marker);
     list.items.emplace_back(DotsItem{shape, {{middle, at.y()}}, ink.color});
   }
-  if (has_markers(kind)) draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
+  if (has_markers(kind) || (ink.marked && kind == Kind::line))
+    draw_marker(list, look, ink.shape(look.marker_size), ink.color, {middle, at.y()});
 }
 
 }  // namespace chute::plot

@@ -34,6 +34,8 @@ struct SeriesLook {
   int marker = 0, dash = 0;
   Fill fill = Fill::own;
   bool hollow = false;  ///< whatever the marker: points that are not vouched for
+  bool marked =
+      false;  ///< a line with a few markers on its way, where nothing else but colour would tell it apart
 
   MarkerShape shape(double diameter) const {
     return marker_shape(marker, diameter, hollow ? Fill::hollow : fill);

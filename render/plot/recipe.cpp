@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "common/error.hpp"
@@ -291,6 +292,13 @@ static void describe_keys(Archive& a, PlotRecipe& recipe) {
   a.sections("panel", recipe.panels);
   a.sections("series", recipe.series);
   a.sections("word", recipe.words);
+  if constexpr (Archive::reading) {
+    const bool named = !recipe.x.names.empty() ||
+                       std::any_of(recipe.panels.begin(), recipe.panels.end(),
+                                   [](const PanelRecipe& panel) { return !panel.x.names.empty(); });
+    a.check(!recipe.table || named, "table",
+            "a table has the names of the x axis as its rows: give plot.x.names");
+  }
 }
 void describe(TomlReader& a, PlotRecipe& recipe) { describe_keys(a, recipe); }
 void describe(KeyLister& a, PlotRecipe& recipe) { describe_keys(a, recipe); }

@@ -102,6 +102,10 @@ class Referee {
       if (tag.panel != text.panel && text.panel >= 0) continue;
       if (mark && bounds(tag).overlaps(text.rect))
         return add(Fault::text_on_data, tag.panel, told(text) + " covers a point of " + tag.series);
+      // names of lines and notes stand at lines on purpose
+      const bool large = text.kind == Box::Kind::legend || text.kind == Box::Kind::inset;
+      if (tag.kind == Tag::Kind::reference && large && crosses(tag, text.rect))
+        return add(Fault::text_on_data, tag.panel, told(text) + " covers a line " + tag.series);
       if (tag.kind == Tag::Kind::curve && crosses(tag, text.rect))
         return add(Fault::text_on_data, tag.panel, told(text) + " covers the curve of " + tag.series);
     }
@@ -168,8 +172,13 @@ class Referee {
     constexpr double most = 0.5;
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
       std::size_t inside = 0, beyond = 0;
+      std::set<std::string> of_points;  // of histograms an arrow is a bin that is too high
+      for (const auto& s : figure_.panels[p].series)
+        if (s.kind == plot::Kind::markers || s.kind == plot::Kind::both || s.kind == plot::Kind::dots)
+          of_points.insert(s.name);
       for (const auto& tag : layout_.list.tags) {
-        if (tag.panel != static_cast<int>(p) || is_doubtful(tag.series)) continue;  // which may lie anywhere
+        if (tag.panel != static_cast<int>(p) || !of_points.count(tag.series)) continue;
+        if (is_doubtful(tag.series)) continue;  // which may lie anywhere
         if (tag.kind == Tag::Kind::marker || tag.kind == Tag::Kind::dots) inside += tag.points;
         if (tag.kind == Tag::Kind::beyond) beyond += tag.points;
       }
@@ -189,7 +198,7 @@ class Referee {
     std::map<std::string, Drawn> all;
     for (const auto& tag : layout_.list.tags) {
       if (tag.panel != panel || tag.kind == Tag::Kind::sample || tag.kind == Tag::Kind::named ||
-          tag.kind == Tag::Kind::beyond)
+          tag.kind == Tag::Kind::beyond || tag.kind == Tag::Kind::reference)
         continue;
       auto& drawn = all[tag.series];
       const Point middle = bounds(tag).centre();
@@ -200,6 +209,15 @@ class Referee {
           form += is_same(fill->color, layout_.list.background) ? " ground" : " filled";
           form += outline(fill->path, middle);
           if (!is_same(fill->color, layout_.list.background)) drawn.color = fill->color;
+        }
+        const bool on_its_way = tag.kind == Tag::Kind::curve && i > tag.first;  // a marker on a line
+        if (on_its_way) {
+          const auto* path = path_of(item);
+          const std::string mark = path ? (std::get_if<FillItem>(&item) ? " filled" : " outline") +
+                                              outline(*path, path->bounds().centre())
+                                        : "";
+          if (form.find(mark) == std::string::npos) form += mark;  // there are many of one shape
+          continue;
         }
         if (const auto* stroke = std::get_if<StrokeItem>(&item)) {
           form += tag.kind == Tag::Kind::marker ? " outline" + outline(stroke->path, middle) : " line";

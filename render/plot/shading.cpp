@@ -99,12 +99,14 @@ void draw_reference(Painter& painter, const Frame& frame, const Reference& refer
   add_polyline(path, points, frame.rect);
   if (path.empty()) return;
   const double width = 1.4 * painter.look.hairline;
+  const std::size_t first = painter.list.items.size();
   if (painter.over_map) {  // whatever colour is beneath
     painter.list.stroke(path, {3 * width, {}, Cap::butt, Join::round}, painter.look.paper.with_alpha(0.75));
     painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.ink);
-    return;
+  } else {
+    painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.quiet);
   }
-  painter.list.stroke(path, {width, {5 * width, 4 * width}, Cap::butt, Join::round}, painter.look.quiet);
+  painter.list.tag(Tag::Kind::reference, painter.panel, reference.label, 0, first);
 }
 
 namespace {

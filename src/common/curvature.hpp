@@ -28,11 +28,16 @@ inline std::vector<double> where_bent(const std::vector<double>& x, const std::v
   for (const double v : y)
     if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
   const auto at = [&](std::size_t i) { return log ? std::log(x[i]) : x[i]; };
+  // What spans decades is shown on a logarithmic axis, where its small values bend as visibly as the large ones.
+  constexpr double decade = 10;
+  const bool decades = low > 0 && high > decade * low;
+  const auto height = [&](std::size_t i) { return decades ? std::log(y[i]) : y[i]; };
+  const double range = decades ? std::log(high / low) : high - low;
   std::vector<bool> halve(x.size(), false);  // the interval behind each point
   for (std::size_t i = 1; i + 1 < x.size(); ++i) {
     const double part = (at(i) - at(i - 1)) / (at(i + 1) - at(i - 1));
-    const double bend = std::abs(y[i] - (y[i - 1] + part * (y[i + 1] - y[i - 1])));
-    if (bend > allowed * (high - low)) halve[i - 1] = halve[i] = true;
+    const double bend = std::abs(height(i) - (height(i - 1) + part * (height(i + 1) - height(i - 1))));
+    if (bend > allowed * range) halve[i - 1] = halve[i] = true;
   }
   for (std::size_t i = 0; i + 1 < x.size(); ++i)
     if (halve[i]) between.push_back(log ? std::exp((at(i) + at(i + 1)) / 2) : (x[i] + x[i + 1]) / 2);

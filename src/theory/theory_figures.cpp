@@ -135,14 +135,13 @@ FigureTable compute_fig_4_04(const FigureContext& context) {
   return table;
 }
 
-FigureTable compute_theory_m_08(const FigureContext& context) {
+FigureTable compute_theory_m_08(const FigureContext&) {
   FigureTable table;
   table.comments = {"x: packing fraction", "y: Z = beta P/n",
                     "virial: ten coefficients of Clisby & McCoy (2006) and a geometric tail"};
-  const int points = context.quick ? 30 : 120;
   const auto add = [&](const char* panel, const char* series, double largest, double (*z)(double)) {
-    for (int k = 0; k <= points; ++k)
-      table.rows.push_back({panel, series, largest * k / points, z(largest * k / points)});
+    for (const auto& [phi, pressure] : by_curvature(z, 0, largest))
+      table.rows.push_back({panel, series, phi, pressure});
   };
   add("a", "virial", 0.62, virial_discs);
   add("a", "henderson", 0.62, henderson);

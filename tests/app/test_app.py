@@ -117,6 +117,12 @@ class BadScenes(App):
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertIn("count = 3\n", done.stdout)
 
+    def test_a_shorter_demo_has_frames_from_the_start(self):
+        out = self.path("demo")
+        done = self.run_chute("run", os.path.join(sources, "scenes", "demo.toml"), "-o", out, "--quiet", "--set", "run.duration=0.5")
+        self.assertEqual((done.returncode, done.stderr), (DONE, ""))
+        self.assertEqual(sorted(os.listdir(os.path.join(out, "frames"))), ["%06d.vtp" % k for k in range(6)])
+
     def test_grains_that_do_not_fit_leave_no_folder(self):
         says = self.refused("run", self.scene, "-o", self.path("out"), "--set", "grains.start.spacing=0.1")
         self.assertIn("spacing", says)

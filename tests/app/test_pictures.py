@@ -38,6 +38,48 @@ class Pictures(unittest.TestCase):
         return os.path.join(GOLDEN, name + ".png")
 
 
+CELLS = """<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian">
+<ImageData WholeExtent="0 2 0 2 0 0" Origin="0 0 0" Spacing="1 1 1"><Piece Extent="0 2 0 2 0 0">
+<CellData><DataArray type="Float64" Name="density" format="ascii">1 2 3 4</DataArray></CellData>
+</Piece></ImageData></VTKFile>
+"""
+
+
+class IdleOptions(Pictures):
+    """What would do nothing is refused in one line, and nothing is written."""
+
+    def refused(self, *words):
+        out = self.path("out")
+        said = self.call("render", *words, *([] if "--movie" in words else ["-o", out]), status=WRONG).stderr
+        self.assertEqual(said.count("\n"), 1, said)
+        self.assertFalse(os.path.exists(out))
+        return said
+
+    def test_of_grains(self):
+        grains = os.path.join(GOLDEN, "data", "frame-discs.vtp")
+        for words, says in ((["--fps", "10"], "--fps is of a movie"),
+                            (["--time-scale", "1000"], "--time-scale: say with --time what the time is in then"),
+                            (["--occlusion"], "--occlusion does nothing here: these grains lie in a plane"),
+                            (["--no-floor"], "--floor does nothing here: these grains lie in a plane"),
+                            (["--camera", "30:20"], "--camera AZIMUTH:ELEVATION[:ZOOM] does nothing here"),
+                            (["--color", "none", "--colormap", "batlow"], "--colormap does nothing here: nothing is coloured")):
+            with self.subTest(words=words):
+                self.assertIn(says, self.refused(grains, *words))
+        told = self.call("render", grains, "--trails", "3", "--size", "160x120", "-o", self.path("trails")).stderr
+        self.assertIn("--trails does nothing here: there is one frame", told)
+
+    def test_of_maps(self):
+        cells = self.write("cells.vti", CELLS)
+        for words, says in ((["--arrows"], "--arrows does nothing here: these are maps of cells"),
+                            (["--camera", "all"], "--camera does nothing here: these are maps of cells"),
+                            (["--title", "x"], "--title does nothing here"),
+                            (["--colormap", "batlow"], "--colormap batlow does nothing here: maps of cells have viridis or rdbu"),
+                            (["--background", "transparent"], "maps of cells have white or dark ground")):
+            with self.subTest(words=words):
+                self.assertIn(says, self.refused(cells, *words))
+        self.call("render", cells, "--range", "0:5", "--colormap", "rdbu", "--size", "300x200", "-o", self.path("map"))
+
+
 class Compare(Pictures):
     def test_two_pictures(self):
         self.assertIn("0 of", self.call("compare", self.golden("band"), self.golden("band")).stdout)

@@ -158,6 +158,13 @@ TEST_CASE("a panel whose points are mostly elsewhere is a fault") {
   REQUIRE(count(figure, Finding::Kind::mostly_outside) == 1);
 }
 
+TEST_CASE("a bin that is too high is an arrow, and no fault") {
+  auto figure = one_panel({points("n", {0.5, 1.5, 2.5, 3.5}, {10, 1, 2, 1}, Kind::steps)});
+  figure.panels[0].y.max = 3;
+  REQUIRE(arrows(figure) == 1);
+  REQUIRE(review(figure, lay_out(figure)).empty());
+}
+
 TEST_CASE("a legend says what a hollow marker means, also where whole series are told to be hollow") {
   auto figure = one_panel({slope("a", 1, Kind::both), slope("b", 2, Kind::both)});
   const auto samples = [&] {
@@ -268,6 +275,31 @@ TEST_CASE("names that make a table have one entry for each row and column") {
   REQUIRE_FALSE(factors_in(figure, -1));
 }
 
+TEST_CASE("lines of a table whose names find no room beside them get markers, and the legend has these") {
+  // so many lines so near to each other that no name fits between
+  std::vector<Series> series;
+  double height = 1;
+  for (const char* phi : {"Phi=1", "Phi=2", "Phi=3", "Phi=4"})
+    for (const char* method : {"soft", "hard"})
+      series.push_back(slope(std::string(method) + " " + phi, height += 0.02, Kind::line));
+  for (auto& s : series)  // all over the panel
+    for (std::size_t i = 0; i < s.x.size(); ++i) s.y[i] = height - s.y[i] + (i % 2 ? 1.0 : -1.0) * 3;
+  auto figure = one_panel(series);
+  figure.width = 60;
+  REQUIRE(factors_in(figure, -1)->has_lines);
+  const auto layout = lay_out(figure);
+  std::size_t named = 0;
+  for (const auto& tag : layout.list.tags) named += tag.kind == Tag::Kind::named;
+  REQUIRE(named == 0);
+  REQUIRE(count(figure, layout, Finding::Kind::color_alone) == 0);
+  REQUIRE(count(figure, layout, Finding::Kind::alike) == 0);
+  // a sample of a colour has its marker, one of a method none
+  std::size_t marked = 0;
+  for (const auto& tag : layout.list.tags)
+    if (tag.kind == Tag::Kind::sample) marked += tag.last - tag.first > 1;
+  REQUIRE(marked == 4);
+}
+
 TEST_CASE(
     "a part that the averages do not count looks as the whole does, hollow, and has one entry for all") {
   auto figure =
@@ -313,6 +345,17 @@ TEST_CASE("an inset keeps off the data where there is room, and the referee find
   REQUIRE(review(figure, lay_out(figure)).empty());
   inset.width = 0.85, inset.height = 0.8;  // room nowhere
   REQUIRE(count(figure, Finding::Kind::text_on_data) == 1);
+}
+
+TEST_CASE("a legend asked into a corner keeps off a line there, and the referee finds one that does not") {
+  auto figure = one_panel({slope("a", 1, Kind::line), slope("b", 1.02, Kind::line)});
+  auto& panel = figure.panels[0];
+  panel.x.min = 0, panel.x.max = 1, panel.y.min = 0;
+  panel.legend = Place::top_left;
+  for (const double at : {0.1, 0.25}) panel.references.push_back({Reference::Kind::vertical, at, ""});
+  REQUIRE(review(figure, lay_out(figure)).empty());
+  for (double at = 0.05; at < 1; at += 0.1) panel.references.push_back({Reference::Kind::vertical, at, ""});
+  REQUIRE(count(figure, Finding::Kind::text_on_data) == 1);  // where there is no room
 }
 
 TEST_CASE("a line's name keeps off the frame's ticks") {

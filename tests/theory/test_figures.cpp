@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "common/curvature.hpp"
 #include "theory/theory_figures.hpp"
 
 using namespace chute::theory;
@@ -101,4 +102,32 @@ TEST_CASE("fig-4-04: linear in the middle, over a wide range of angles, faster f
   }
   CHECK(c.at("R=5mm").at(0.2) > c.at("R=4mm").at(0.2));
   CHECK(c.at("R=4mm").at(0.2) > c.at("R=3mm").at(0.2));
+}
+
+TEST_CASE("theory is smooth to the eye, whatever --quick says") {
+  const auto& compute = theory_figures().at("theory-m-08");
+  const auto table = compute(quick);
+  REQUIRE(table.rows.size() == compute(FigureContext{false, 1}).rows.size());
+  for (const char* panel : {"a", "b"})
+    for (const auto& [series, curve] : curves(table, panel)) {
+      std::vector<double> x, y;
+      for (const auto& [a, b] : curve) x.push_back(a), y.push_back(b);
+      INFO(series);
+      REQUIRE(x.size() >= 25);
+      // a bend of half a line's width would not be seen; the corners of these curves are a fifth of that
+      REQUIRE(chute::where_bent(x, y, false, chute::smooth_bend).empty());
+    }
+}
+
+TEST_CASE("a curve over decades is smooth where it is small, too") {
+  // 1/(1 + x²) falls by four decades: on a linear axis its foot looks straight, on a logarithmic one it bends
+  const auto points = chute::by_curvature([](double x) { return 1 / (1 + x * x); }, 0, 100);
+  double worst = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto [a, ya] = points[i - 1];
+    const auto [b, yb] = points[i];
+    const double middle = 1 / (1 + (a + b) * (a + b) / 4);
+    worst = std::max(worst, std::abs(std::log(middle) - (std::log(ya) + std::log(yb)) / 2));
+  }
+  REQUIRE(worst < 4 * chute::smooth_bend * std::log(1e4));
 }
