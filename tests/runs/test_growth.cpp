@@ -74,11 +74,15 @@ TEST_CASE("averages of a run that is made longer are those of one made in one go
   go(with("run.duration=8"), folder / "grown");
   goes_on(with("run.duration=20"), folder / "grown");
   for (const auto& [file, name] :
-       {std::pair{"profiles.csv", "v_x"}, {"profiles.csv", "eta"}, {"impact_histograms.csv", "count"}}) {
+       {std::pair{"profiles.csv", "v_x"}, {"profiles.csv", "eta"}, {"impact_histograms.csv", "value"}}) {
     const auto whole = column(folder / "whole" / file, name), grown = column(folder / "grown" / file, name);
     INFO(file << " " << name);
     REQUIRE(whole.size() == grown.size());
-    for (std::size_t k = 0; k < whole.size(); ++k) CHECK(grown[k] == Approx(whole[k]).epsilon(1e-9));
+    for (std::size_t k = 0; k < whole.size(); ++k)  // layers that no grain reached have no velocity
+      if (std::isnan(whole[k]))
+        CHECK(std::isnan(grown[k]));
+      else
+        CHECK(grown[k] == Approx(whole[k]).epsilon(1e-9));
   }
 }
 
