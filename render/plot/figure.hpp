@@ -141,7 +141,9 @@ struct StyleChanges {
   std::vector<Color> colors;        ///< of series, in the order in which they come
   std::optional<std::string> font;  ///< family of all texts
   std::optional<Color> ink, paper;
-  std::optional<double> font_size, line_width, marker_size, hairline;
+  std::optional<double> font_size, tick_size, legend_size;
+  std::optional<double> line_width, marker_size, hairline;
+  std::vector<int> markers, dashes;  ///< that series take, in this order: numbers of style.hpp; empty: all
 };
 
 struct Figure {

@@ -1,6 +1,7 @@
 #include "plot/recipe.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -80,6 +81,24 @@ std::optional<Color> color_from(const std::string& text) {
   const auto [stop, error] = std::from_chars(digits.data(), end, rgb, 16);
   if (text[0] != '#' || error != std::errc() || stop != end) return {};
   return Color::hex(rgb);
+}
+
+/// Words as their numbers.
+void read_order(TomlReader& a, std::string_view key, std::vector<int>& target,
+                std::span<const std::string_view> words, const char* text) {
+  std::vector<std::string> chosen;
+  a.value(key, chosen, text);
+  for (const auto& word : chosen) {
+    const auto found = std::find(words.begin(), words.end(), word);
+    a.check(found != words.end(), key,
+            fmt::format("\"{}\" is not known, allowed: {}", word, fmt::join(words, ", ")));
+    target.push_back(static_cast<int>(found - words.begin()));
+  }
+}
+void read_order(KeyLister& a, std::string_view key, std::vector<int>&,
+                std::span<const std::string_view> words, const char* text) {
+  a.value(key, std::vector<std::string>(), text);
+  (void)words;
 }
 
 void check_font(TomlReader& a, const std::optional<std::string>& font) {
@@ -313,6 +332,12 @@ static void describe_keys(Archive& a, StyleChanges& style) {
   read_color(a, "ink", style.ink, "of texts and frames, \"#000000\"");
   read_color(a, "paper", style.paper, "of the ground, \"#ffffff\"");
   a.value("font_size", style.font_size, between(4, 40), "of labels, in points; the other texts follow");
+  a.value("tick_size", style.tick_size, between(4, 40), "of the numbers at ticks, in points");
+  a.value("legend_size", style.legend_size, between(4, 40), "of legends and notes, in points");
+  read_order(a, "markers", style.markers, std::span(marker_words).subspan(1),
+             "that series take, in this order: [\"circle\", \"cross\", …]");
+  read_order(a, "dashes", style.dashes, std::span(dash_words).subspan(1),
+             "that lines take, in this order: [\"solid\", \"dotted\", …]");
   a.value("line_width", style.line_width, positive, "of curves, in points");
   a.value("marker_size", style.marker_size, positive, "diameter of the round one, in points");
   a.value("hairline", style.hairline, positive, "of frames, ticks and error bars, in points");

@@ -85,7 +85,8 @@ class KeyLister;
 ///     font = "DejaVu Sans"      # of all texts; default STIX
 ///     ink = "#000000"           # texts and frames; paper: the ground
 ///     font_size = 10            # of labels, in points; the other texts follow
-///     line_width = 1.1          # points; so are marker_size and hairline
+///     line_width = 1.1          # points; so are marker_size and hairline, and tick_size and legend_size of texts
+///     markers = ["circle"]      # that series take, in this order; dashes: that lines take
 // clang-format on
 namespace chute::plot {
 

@@ -49,8 +49,8 @@ class ByFactors {
     SeriesLook ink;
     const auto color = static_cast<std::size_t>(place.color);
     ink.color = look_.colors[color % look_.colors.size()];
-    ink.marker = shapes[color % shapes.size()];
-    ink.fill = fill(place.style), ink.dash = index(dashes_, place.style);
+    ink.marker = look_.markers.empty() ? shapes[color % shapes.size()] : look_.marker(place.color);
+    ink.fill = fill(place.style), ink.dash = look_.dash(index(dashes_, place.style));
     return ink;
   }
   /// For what stands outside the table.
@@ -158,7 +158,7 @@ std::map<std::string, SeriesLook> assign_looks(const Figure& figure, const Look&
             same ? picks[base].dash
                  : s->dash.value_or(smallest(base, [](const Pick& p) { return p.dashed ? p.dash : -1; }));
       SeriesLook ink{s->ink.value_or(look.colors[static_cast<std::size_t>(pick.index) % look.colors.size()]),
-                     s->marker.value_or(pick.index), pick.dash};
+                     s->marker.value_or(look.marker(pick.index)), s->dash.value_or(look.dash(pick.dash))};
       ink.width = s->width, ink.size = s->size;
       if (same && !s->marker) ink.marker = looks.count(base) ? looks[base].marker : ink.marker;
       ink.hollow = s->hollow || is_doubtful(s->name);

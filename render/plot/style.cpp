@@ -98,6 +98,9 @@ Look look_of(const Figure& figure) {
     for (double* size : {&look.label_size, &look.tick_size, &look.legend_size, &look.panel_size})
       *size *= part;
   }
+  if (changes.tick_size) look.tick_size = *changes.tick_size;
+  if (changes.legend_size) look.legend_size = *changes.legend_size;
+  look.markers = changes.markers, look.dashes = changes.dashes;
   if (changes.line_width) look.line_width = *changes.line_width;
   if (changes.marker_size) look.marker_size = *changes.marker_size;
   if (changes.hairline) look.hairline = *changes.hairline;

@@ -20,6 +20,16 @@ struct Look {
   double margin = 3;                        ///< around everything
   Color ink, paper, quiet;                  ///< text and frames; ground; reference lines
   std::vector<Color> colors, shades;        ///< series; regions
+  std::vector<int> markers, dashes;         ///< in the order in which series take them; empty: by number
+
+  /// What the series that comes as number `k` has.
+  int marker(int k) const { return taken(markers, k); }
+  int dash(int k) const { return taken(dashes, k); }
+
+ private:
+  static int taken(const std::vector<int>& order, int k) {
+    return order.empty() ? k : order[static_cast<std::size_t>(k) % order.size()];
+  }
 };
 
 const Look& look_of(Style style);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <unordered_map>
 
@@ -81,6 +82,52 @@ read::GrainFrame between(const read::GrainFrame& a, const read::GrainFrame& b, d
       }
   }
   return now;
+}
+
+namespace {
+
+/// Finds the grain whose centre is at a place, modulo the periods.
+class Centres {
+ public:
+  explicit Centres(const read::GrainFrame& frame) : frame_(frame), order_(frame.size()) {
+    for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
+    std::ranges::sort(order_, {}, [&](std::size_t i) { return wrapped(frame.x[i]); });
+  }
+
+  std::optional<std::size_t> at(const Eigen::Vector3d& place) const {
+    constexpr double same =
+        1e-3;  // radii: files with fewer digits than the grains' still say whose centre it is
+    const double x = wrapped(place.x()), period = frame_.period(0);
+    for (const double shift : {0.0, -period, period}) {
+      const double near = same * largest();
+      auto k = std::ranges::lower_bound(order_, x + shift - near, {},
+                                        [&](std::size_t i) { return wrapped(frame_.x[i]); });
+      for (; k != order_.end() && wrapped(frame_.x[*k]) <= x + shift + near; ++k)
+        if (frame_.shortest(place - frame_.centre(*k)).norm() <= same * frame_.radius[*k]) return *k;
+      if (period == 0) break;
+    }
+    return {};
+  }
+
+ private:
+  const read::GrainFrame& frame_;
+  std::vector<std::size_t> order_;  // of grains, by x
+
+  double wrapped(double x) const {
+    const double period = frame_.period(0), low = frame_.domain.min()[0];
+    return period > 0 ? x - period * std::floor((x - low) / period) : x;
+  }
+  double largest() const { return frame_.radius.empty() ? 0 : std::ranges::max(frame_.radius); }
+};
+
+}  // namespace
+
+void move_ends(std::vector<read::ForceLink>& links, const read::GrainFrame& a, const read::GrainFrame& now) {
+  if (links.empty()) return;
+  const Centres centres(a);
+  for (auto& link : links)
+    for (Eigen::Vector3d* end : {&link.from, &link.to})
+      if (const auto grain = centres.at(*end)) *end += a.shortest(now.centre(*grain) - a.centre(*grain));
 }
 
 }  // namespace chute::view

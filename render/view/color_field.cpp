@@ -71,7 +71,7 @@ std::vector<double> ColorField::values(const read::GrainFrame& frame) const {
       for (int c = 0; c < source->components; ++c) squared += source->at(i, c) * source->at(i, c);
       result[i] = std::sqrt(squared);
     } else {
-      result[i] = source->at(i, component);
+      result[i] = sign * source->at(i, component);
     }
   }
   if (!source->words.empty()) {  // each file counts its own
@@ -147,12 +147,16 @@ ColorField find_field(std::string_view text, const read::GrainFrame& frame) {
   ColorField field{canonical(name, frame), ColorField::Part::scalar, 0};
   field.kinds = array->components == 1 && is_kind(*array, frame);
   if (array->components == 1 && part.empty()) return field;
+  const bool own_spin = frame.own && frame.dimensions == 2 && field.array == fields::angular_velocity.name &&
+                        array->components == 3;
   if (array->components > 1 && (part == "magnitude" || (part.empty() && array->components <= 3))) {
     field.part = ColorField::Part::magnitude;
     // in the plane everything turns about the same axis: the sign is what tells
     if (part.empty() && field.array == fields::angular_velocity.name && frame.dimensions == 2 &&
-        array->components == 3)
+        array->components == 3) {
       field.part = ColorField::Part::component, field.component = 2;
+      field.sign = own_spin ? -1 : 1;
+    }
     return field;
   }
   field.part = ColorField::Part::component;
@@ -166,6 +170,7 @@ ColorField find_field(std::string_view text, const read::GrainFrame& frame) {
                                  array->components == 1   ? "nothing"
                                  : array->components <= 3 ? ":x, :y, :z, :magnitude"
                                                           : "one digit, from :0, or :magnitude"));
+  if (own_spin && field.component == 2) field.sign = -1;
   return field;
 }
 

@@ -17,6 +17,8 @@ struct ColorField {
   std::vector<std::string> words =
       {};  ///< of a field of words: those that have a colour. Its values count these
 
+  double sign =
+      1;  ///< -1: spins of chute's own files in the plane, whose tables count rolling downhill as positive
   bool forces = false;  ///< not grains are coloured but chains, by their forces
 
   bool is_none() const { return array.empty(); }

@@ -206,8 +206,11 @@ class FrameDrawer {
     std::vector<read::ForceLink> links;
     if (has_network) links = read::parse_network(std::move(network), job_.meanings, &frame);
     if (moment.part > 0) {
-      frame = between(frame, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_),
-                      moment.part);
+      const auto before = frame;
+      frame =
+          between(before, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_),
+                  moment.part);
+      move_ends(links, before, frame);
       time += moment.part * (survey_.times[number + 1] - time);
     }
     std::vector<const read::GrainFrame*> trail;

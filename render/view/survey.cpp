@@ -300,9 +300,12 @@ std::string Survey::describe() const {
              "diameter={} speed={} force={} fixed={:d} decimals={} times={:d} categories={}",
              dimensions, text(up), slope, turn, text(bounds.min()) + text(bounds.max()),
              text(turned.min()) + text(turned.max()), text(domain.min()) + text(domain.max()), text(gravity),
-             units + clock, field.forces ? "chains" : field.array, static_cast<int>(field.part),
-             field.component, low, high, diverging, exceeds_low, exceeds_high, diameter, speed, force,
-             has_fixed, time_decimals, has_times, fmt::join(categories, ",")) +
+             units + clock,
+             field.forces     ? "chains"
+             : field.sign < 0 ? "-" + field.array
+                              : field.array,
+             static_cast<int>(field.part), field.component, low, high, diverging, exceeds_low, exceeds_high,
+             diameter, speed, force, has_fixed, time_decimals, has_times, fmt::join(categories, ",")) +
          fmt::format(" kinds={}|{}", fmt::join(kind_names, "|"), fmt::join(field.words, "|")) +
          (lattice ? fmt::format(" lattice={}{}", text(lattice->origin), text(lattice->edges.reshaped()))
                   : "");

@@ -80,7 +80,8 @@ std::string column_text(const Json& column) {
 }
 
 void show_table(const Json& file) {
-  for (const auto& comment : file["comments"]) fmt::print("# {}\n", text_of(comment));
+  for (const auto& comment : file["comments"])  // what columns mean is --columns' answer
+    if (const auto text = text_of(comment); !text.starts_with(column_comment)) fmt::print("# {}\n", text);
   fmt::print("{}: {} rows\n", text_of(file["file"]), file["rows"].get<std::size_t>());
   for (const auto& column : file["columns"])
     fmt::print("  {:<18} {}\n", text_of(column["name"]), column_text(column));

@@ -335,8 +335,7 @@ void add_render(CLI::App& app) {
                  "contact forces as lines, wide where strong (needs the run's contacts)");
   verb->add_flag("--copies", a->copies, "faded copies beyond the periodic ends");
   verb->add_option("--copies-reach", a->copy_reach, "so many periods of them to each side")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->capture_default_str();
   verb->add_option("--opacity", a->opacity,
                    "of grains that move: below 1 one sees through them, such as to chains")
       ->check(CLI::Range(0.01, 1.0));

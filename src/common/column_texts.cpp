@@ -345,6 +345,31 @@ const TableText* find_table_text(std::string_view file, const std::vector<std::s
   return knows_all == tables.end() ? nullptr : &*knows_all;
 }
 
+std::string with_column_comments(std::string_view file, const std::string& csv, bool is_si) {
+  const auto& tables = table_texts();
+  const auto table = std::ranges::find(tables, file, &TableText::file);
+  if (table == tables.end()) return csv;
+  std::size_t header = 0;
+  while (header < csv.size() && csv[header] == '#')
+    header = std::min(csv.find('\n', header), csv.size() - 1) + 1;
+  const auto names = "," + csv.substr(header, csv.find('\n', header) - header) + ",";
+  // Whether a column is there, or for `v_*` any; the pattern's errors are told once, below.
+  const auto is_there = [&](const ColumnText& column) {
+    const bool any = column.name.ends_with('*');
+    return names.find("," + column.name.substr(0, column.name.size() - any) + (any ? "" : ",")) != names.npos;
+  };
+  std::string lines;
+  for (const auto& column : table->columns) {
+    if (!is_there(column)) continue;
+    const auto& unit = is_si ? column.si : column.reduced;
+    lines += fmt::format("# {}{}{}: {}\n", column_comment, column.name, unit.empty() ? "" : " (" + unit + ")",
+                         column.meaning);
+  }
+  if (names.find("_err,") != names.npos && !table->error.empty())
+    lines += fmt::format("# {}*_err: {}\n", column_comment, table->error);
+  return csv.substr(0, header) + lines + csv.substr(header);
+}
+
 std::string column_tables() {
   std::string text;
   for (const auto& table : table_texts()) {

@@ -28,6 +28,12 @@ std::optional<ColumnText> column_text(const TableText& table, std::string_view c
 /// The table of that file name, or else the first that knows all these columns, for files that were renamed.
 const TableText* find_table_text(std::string_view file, const std::vector<std::string>& columns);
 
+/// A table's text with what its columns mean, their units and how errors were made as comment lines before the header; as it
+/// was if its file name is not known. Columns that are not known, such as a sweep's axes, have no line.
+std::string with_column_comments(std::string_view file, const std::string& csv, bool is_si);
+/// What such a line begins with, behind the #.
+inline constexpr std::string_view column_comment = "column ";
+
 /// All of it as tables in Markdown.
 std::string column_tables();
 

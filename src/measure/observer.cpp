@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/column_texts.hpp"
+
 namespace chute::measure {
 
 std::vector<std::string> RunContext::comments(std::string what) const {
@@ -24,7 +26,7 @@ std::vector<std::string> RunContext::average_note(const std::optional<double>& f
 }
 
 void RunContext::write(const std::string& name, const std::string& bytes) const {
-  if (files) files->write(name, bytes);
+  if (files) files->write(name, with_column_comments(name, bytes, facts.units == "SI"));
 }
 void RunContext::write_once(const std::string& name, const std::string& bytes) const {
   if (files) files->write_once(name, bytes);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "common/atomic_file.hpp"
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "common/file_lock.hpp"
 #include "io/csv.hpp"
@@ -185,6 +186,10 @@ class Sweep {
     return all;
   }
 
+  void write_table(const char* name, const io::Csv& table) const {
+    write_atomically(file(name), with_column_comments(name, table.text(), first_.si()));
+  }
+
   /// False if some point is not there yet: another shard's.
   bool write_tables() const {
     auto place_columns =
@@ -224,8 +229,8 @@ class Sweep {
                        n(Verdict::runaway), n(Verdict::unsettled), t.v_x.mean, t.v_x.error, t.median.mean,
                        t.median.error, t.omega.mean, t.omega.error, t.kinetic.mean, t.kinetic.error}));
     }
-    write_atomically(file("starts.csv"), each.text());
-    write_atomically(file("sweep.csv"), table.text());
+    write_table("starts.csv", each);
+    write_table("sweep.csv", table);
     return true;
   }
 
@@ -248,7 +253,7 @@ class Sweep {
     } catch (const PointStore::PointIsMissing&) {
       return false;  // another shard's
     }
-    write_atomically(file("boundaries.csv"), table.text());
+    write_table("boundaries.csv", table);
     return true;
   }
 };

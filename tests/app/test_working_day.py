@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-chute, sources = sys.argv[1:3]
+chute, sources = (os.path.abspath(word) for word in sys.argv[1:3])
 
 
 def tasks():
@@ -123,6 +123,20 @@ class WorkingDay(unittest.TestCase):
         self.assertRegex(said, r"angular_velocity +sqrt\(g/d\) +anticlockwise")
         self.assertNotIn("not known", said)
         self.assertIn("v_x at the end:", said)
+        with open(self.path("out", "flow-1", "profiles.csv"), encoding="utf-8") as file:
+            self.assertIn("\n# column v_* (sqrt(gd)): mean velocity", file.read())
+
+    def test_5_with_pandas_and_vtk(self):
+        self.good(1)
+        with open(os.path.join(sources, "README.md"), encoding="utf-8") as readme:
+            page = readme.read().split("### Reading a run from Python")[1].split("\n## ")[0]
+        code = 'run = "out/flow-1"\n' + re.findall(r"```python\n(.*?)```", page, re.DOTALL)[0]
+        python = "/usr/bin/python3"  # Debian's, whose packages the page names
+        done = subprocess.run([python, "-c", code], cwd=self.folder, capture_output=True, text=True)
+        if "ModuleNotFoundError" in done.stderr or not os.path.exists(python):
+            self.skipTest(done.stderr.strip())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"t = 0.0 \(reduced\): 60 grains move, mean v_x [12]\.\d+")
 
     def test_6_pictures_and_tables_are_compared(self):
         done = self.said[5]
@@ -132,6 +146,10 @@ class WorkingDay(unittest.TestCase):
 
     def test_7_runs_and_sweeps_grow(self):
         done = self.good(7)
+        self.assertRegex(done.stderr, r"chute run out/stopped --resume|out/stopped: .*finished")
+        stopped = table(self.path("out", "stopped", "series.csv"))
+        self.assertAlmostEqual(float(stopped[-1]["time"]), 150)
+        self.assertEqual(len(stopped), 1501)
         self.assertIn("the flow is ", done.stdout)
         self.assertIn("24 of 24 points are there", done.stdout)
         times = [float(row["time"]) for row in table(self.path("out", "flow-1", "series.csv"))]

@@ -2,6 +2,7 @@
 
 #include "common/error.hpp"
 #include "plot/layout.hpp"
+#include "plot/marks.hpp"
 #include "plot/recipe.hpp"
 
 using namespace chute;
@@ -107,6 +108,30 @@ kind = "off"
            a.series[1].dash == 2 && !a.series[1].marker));
   REQUIRE(
       (a.insets.size() == 1 && a.insets[0].plot.series[0].name == "zoom" && a.insets[0].plot.y.max == 50.0));
+}
+
+TEST_CASE("a style says which markers and dashes series take, and how large texts are") {
+  const auto text = parse_toml(
+      "markers = [\"cross\", \"block\"]\ndashes = [\"dotted\"]\nfont_size = 12\nlegend_size = 7.5\n",
+      "style.toml");
+  TomlReader reader(text, "style.toml");
+  StyleChanges style;
+  describe(reader, style);
+  reader.finish();
+  auto figure =
+      figure_of("[plot]\nkind = \"markers\"\n[[plot.series]]\nmatch = \"*fine\"\nmarker = \"ring\"\n");
+  figure.changes = style;
+  const Look look = look_of(figure);
+  CHECK((look.label_size == 12 && look.legend_size == 7.5 && look.tick_size == Approx(10.8)));
+  const auto looks = assign_looks(figure, look);
+  CHECK(looks.at("e_n=0.4").marker == 9);       // cross
+  CHECK(looks.at("e_n=0.8 fine").marker == 5);  // its own
+  CHECK(looks.at("theory").dash == 2);          // dotted
+  CHECK(looks.at("theory").color.b == look.colors[2].b);
+  const auto wrong = parse_toml("markers = [\"star\"]\n", "style.toml");
+  TomlReader again(wrong, "style.toml");
+  CHECK_THROWS_WITH(describe(again, style),
+                    Catch::Contains("style.toml:1: markers: \"star\" is not known, allowed: circle"));
 }
 
 TEST_CASE("a table of one panel has no (a)") {

@@ -78,7 +78,7 @@ TEST_CASE("averages of a run that is made longer are those of one made in one go
     const auto whole = column(folder / "whole" / file, name), grown = column(folder / "grown" / file, name);
     INFO(file << " " << name);
     REQUIRE(whole.size() == grown.size());
-    for (std::size_t k = 0; k < whole.size(); ++k)
+    for (std::size_t k = 0; k < whole.size(); ++k)  // layers that no grain reached have no velocity
       if (std::isnan(whole[k]))
         CHECK(std::isnan(grown[k]));
       else

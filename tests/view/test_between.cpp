@@ -52,3 +52,25 @@ TEST_CASE("grains are matched by their ids, and where some came or went the earl
   b.arrays[0].values = {7, 8};
   CHECK(view::between(a, b, 0.5).x == a.x);
 }
+
+TEST_CASE(
+    "between frames the ends of contacts go with their grains, also through periodic ends, and those on walls stay") {
+  const auto a = frame_of(9.8, {1, 0, 0, 0});
+  auto b = frame_of(0.4, {1, 0, 0, 0});
+  b.x[1] = 4.6;
+  const auto now = view::between(a, b, 0.5);
+  const Eigen::Vector3d first(9.8, 1, 0), second(5, 2, 0), wall(5, 0, 0);
+  // grain 0 is also seen at -0.2: a contact through the end
+  std::vector<read::ForceLink> links{
+      {first, second, 1}, {second, Eigen::Vector3d(-0.2, 1, 0), 2}, {second, wall, 3}};
+  view::move_ends(links, a, now);
+  CHECK(links[0].from.isApprox(Eigen::Vector3d(10.1, 1, 0)));
+  CHECK(links[0].to.isApprox(Eigen::Vector3d(4.8, 2, 0)));
+  CHECK(links[1].to.isApprox(Eigen::Vector3d(0.1, 1, 0)));
+  CHECK(links[2].to == wall);
+  CHECK(links[2].force == 3);
+  std::vector<read::ForceLink> elsewhere{
+      {Eigen::Vector3d(5.01, 2, 0), wall, 1}};  // in a grain, but not its centre
+  view::move_ends(elsewhere, a, now);
+  CHECK(elsewhere[0].from == Eigen::Vector3d(5.01, 2, 0));
+}

@@ -120,3 +120,17 @@ TEST_CASE("No frames, no survey") {
   view::Surveyor surveyor({});
   CHECK_THROWS_AS(surveyor.finish(), InputError);
 }
+
+TEST_CASE(
+    "Spins have one sign in pictures and tables: rolling downhill is positive, in chute's own files of a plane") {
+  auto frame = grains::one_disc();
+  frame.arrays.push_back({"angular_velocity", 3, {0, 0, -3}});  // clockwise: it rolls towards +x
+  frame.own = true;
+  for (const char* name : {"angular_velocity", "angular_velocity:z"})
+    CHECK(view::find_field(name, frame).values(frame)[0] == 3);
+  CHECK(view::find_field("angular_velocity", frame).title("SI").find("omega") != std::string::npos);
+  frame.own = false;  // another program's numbers stay what they are
+  CHECK(view::find_field("angular_velocity", frame).values(frame)[0] == -3);
+  frame.own = true, frame.dimensions = 3;
+  CHECK(view::find_field("angular_velocity:z", frame).values(frame)[0] == -3);
+}
