@@ -114,8 +114,8 @@ class WorkingDay(unittest.TestCase):
 
         with open(self.path("out", "dump", "000000.png"), "rb") as picture:
             first = picture.read()
-        self.assertEqual(first, drawn("--contacts", "contacts.csv"))
-        self.assertNotEqual(first, drawn())
+        self.assertEqual(first, drawn("--contacts", "contacts.csv", "--opacity", "0.35"))
+        self.assertNotEqual(first, drawn("--opacity", "0.35"))
 
     def test_5_columns_are_told(self):
         said = self.good(5).stdout
