@@ -138,7 +138,8 @@ class Marked {
 
   static std::size_t middle_of(const std::vector<std::size_t>& region, std::size_t nx) {
     const auto place = [&](std::size_t cell) {
-      return Point{static_cast<double>(cell % nx), static_cast<double>(cell / nx)};
+      const std::size_t column = cell % nx, row = cell / nx;
+      return Point{static_cast<double>(column), static_cast<double>(row)};
     };
     Point mean{0, 0};
     for (const auto cell : region) mean += place(cell) / static_cast<double>(region.size());

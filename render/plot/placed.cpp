@@ -6,7 +6,7 @@ namespace {
 /// Items as they are on the page that they are put on.
 class Placing {
  public:
-  Placing(double scale, Point at) : scale_(scale), at_(at) {}
+  Placing(double scale, const Point& at) : scale_(scale), at_(at) {}
 
   FillItem operator()(const FillItem& item) const { return {placed(item.path), item.color}; }
   StrokeItem operator()(StrokeItem item) const {
@@ -47,7 +47,7 @@ class Placing {
 
 }  // namespace
 
-void place(DisplayList& page, const DisplayList& part, double scale, Point at) {
+void place(DisplayList& page, const DisplayList& part, double scale, const Point& at) {
   const Placing placing(scale, at);
   for (const auto& item : part.items)
     std::visit([&](const auto& one) { page.items.emplace_back(placing(one)); }, item);

@@ -4,6 +4,6 @@
 namespace chute::plot {
 
 /// Adds what `part` shows to `page`: its lengths times `scale`, its upper left corner at `at`. Tags stay behind.
-void place(DisplayList& page, const DisplayList& part, double scale, Point at);
+void place(DisplayList& page, const DisplayList& part, double scale, const Point& at);
 
 }  // namespace chute::plot

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "run/facts.hpp"
+#include "scene/world.hpp"
 
 namespace chute::run {
 namespace {

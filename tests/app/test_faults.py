@@ -114,9 +114,6 @@ class Faults(unittest.TestCase):
         done = self.run_chute("check", *large, "--beyond-machine")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"# disk +\S+ TB")
-        (self.folder / "w.toml").write_text((self.folder / "s.toml").read_text() + '\n[sweep]\nseeds = 1\n[[sweep.axis]]\n'
-                                            'key = "contact.normal.restitution"\nvalues = [0.5, 0.6]\n')
-        self.assertIn("GB of", self.refused("sweep", "w.toml", "-o", "d", *large[1:]))
 
     def test_step_longer_than_the_run(self):
         self.assertIn("is less than half a step", self.refused("check", *self.scene(engine__time_step="1e50")))

@@ -238,7 +238,7 @@ ContactModel model_of_all(const laws::ContactLaws& laws) {
   if (auto model = model_of(laws, alike[0]); model.wrong) return model;
   const auto normal = normal_for_all(laws.normal);
   if (normal.wrong) return {"", normal.wrong};
-  const auto shear = shear_for_all(laws.shear, normal);
+  auto shear = shear_for_all(laws.shear, normal);
   if (shear.wrong) return shear;
   return {joined(normal.text, shear.text, laws.attraction), {}};
 }

@@ -195,10 +195,10 @@ class DeckMaker {
   }
 
   std::string wall(std::size_t w, const laws::ContactLaws& laws) {
-    auto [text, style, where] = border(w);
+    Border at = border(w);
     const auto add = [&](const std::string& group, const std::string& model) {
       const auto name = fmt::format("wall{}_{}", w, deck_.wall_fixes[w].size());
-      text += fmt::format("fix {} {} {} {} {} contacts\n", name, group, style, model, where);
+      at.commands += fmt::format("fix {} {} {} {} {} contacts\n", name, group, at.style, model, at.where);
       deck_.wall_fixes[w].push_back(name);
     };
     const auto text_for = [&](const std::optional<ClassicModel>& classic, const auto& model) {
@@ -206,15 +206,15 @@ class DeckMaker {
     };
     if (!apart_ || moving_kinds() > most_wall_kinds) {
       add("grains", text_for(classic_model_of_all(laws), [&] { return model_of_all(laws); }));
-      return text;
+      return at.commands;
     }
     for (std::size_t k = 0; k < moving_kinds() && !wrong_; ++k) {
-      if (w == 0) text += fmt::format("group kind{} type {}\n", k + 1, k + 1);
+      if (w == 0) at.commands += fmt::format("group kind{} type {}\n", k + 1, k + 1);
       const laws::Pair pair(kinds_[k].mass, kinds_[k].radius);
       add(fmt::format("kind{}", k + 1),
           text_for(classic_model(laws, {pair}), [&] { return model_of(laws, pair); }));
     }
-    return text;
+    return at.commands;
   }
 
   std::string data() const {

@@ -48,7 +48,7 @@ fs::path find_program(const std::string& name) {
   std::string_view rest = path ? path : "/usr/bin:/bin";
   while (!rest.empty()) {
     const auto end = std::min(rest.find(':'), rest.size());
-    const fs::path file = fs::path(rest.substr(0, end)) / name;
+    fs::path file = fs::path(rest.substr(0, end)) / name;
     if (::access(file.c_str(), X_OK) == 0) return file;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
