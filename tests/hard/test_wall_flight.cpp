@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "engines/hard/first_contact.hpp"
 #include "engines/hard/wall_flight.hpp"
 
 using namespace chute;
