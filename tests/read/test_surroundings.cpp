@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "common/error.hpp"
+#include "complaint.hpp"
 #include "read/contact_rows.hpp"
 #include "read/grain_frame.hpp"
 #include "read/network.hpp"
