@@ -323,6 +323,13 @@ class Lammps(unittest.TestCase):
         self.assertIn('"lammps" needs the program lmp, Debian\'s package lammps: apt-get install lammps', said)
         self.assertFalse(os.path.exists(self.path("run")))
 
+    @unittest.skipUnless(THERE and shutil.which("mpirun"), "lmp and mpirun")
+    def test_more_processes_than_start_are_refused(self):
+        self.write("flow.toml", FLOW)
+        said = self.call("run", "flow.toml", "--set", "engine.method=lammps", "-o", "run", "--ranks", 99999, status=2).stderr
+        self.assertIn("--ranks 99999: at most", said)
+        self.assertFalse(os.path.exists(self.path("run")))
+
     def exported(self):
         self.call("export", "flow.toml", "--lammps", "there", "--quiet")
         return "there"
