@@ -89,14 +89,9 @@ class Conversion {
     return fmt::format("{}{:06}.{}", job_.format == Format::vtp ? "frames/" : "", k, ending());
   }
 
-  void told(std::size_t done) {
-    if (job_.progress && !job_.progress(done, frames_.size())) stop(done);
-  }
-  [[noreturn]] void stop(std::size_t done) {
-    if (job_.one_file) throw WorkError("stopped; nothing was written");
-    folder_.keep();
-    throw WorkError(
-        fmt::format("stopped; {} of {} frames are in {}", done, frames_.size(), job_.folder.string()));
+  void told(std::size_t done) const {
+    if (job_.progress && !job_.progress(done, frames_.size()))
+      throw WorkError("stopped; nothing was written");
   }
 
   /// Each frame in a process of its own: VTK's readers are not made for threads, and what a frame took is given back.
