@@ -330,6 +330,26 @@ class Lammps(unittest.TestCase):
         self.assertIn("--ranks 99999: at most", said)
         self.assertFalse(os.path.exists(self.path("run")))
 
+    @unittest.skipUnless(THERE, "lmp")
+    def test_a_bad_dump_in_the_middle_costs_nothing(self):
+        self.write("flow.toml", FLOW)
+        folder = self.path(self.exported())
+        subprocess.run(["lmp", "-in", "in.lammps"], cwd=folder, capture_output=True, check=True)
+        self.call("import", "there", "-o", "run", "--quiet")
+        before = table(self.path("run", "series.csv"))
+        middle = os.path.join(folder, "dumps", sorted(os.listdir(os.path.join(folder, "dumps")))[2])
+        with open(middle, encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        for wrong, what in ((lines[:-3], "cut short"), (lines[:-1] + [lines[-1].rsplit(" ", 1)[0] + " nan"], "a value is no number")):
+            with open(middle, "w", encoding="utf-8") as file:
+                file.write("\n".join(wrong) + "\n")
+            for words in (("-o", "run", "--force"), ()):
+                said = self.call("import", "there", *words, status=2).stderr
+                self.assertIn(what, said)
+                self.assertEqual(said.count("\n"), 1, said)
+            self.assertEqual(table(self.path("run", "series.csv")), before)
+            self.assertFalse(os.path.exists(os.path.join(folder, "run")))
+
     def exported(self):
         self.call("export", "flow.toml", "--lammps", "there", "--quiet")
         return "there"
