@@ -38,7 +38,12 @@ void leave_out_unfinished(std::vector<std::int64_t>& steps, const fs::path& dump
 /// A dump in the middle that cannot be read would end the import when half of a run is written, and with --force in place of
 /// a whole one.
 void read_all_once(const std::vector<std::int64_t>& steps, const fs::path& dumps) {
-  for (const auto step : steps) lammps::read_dump_frame(dumps / fmt::format("grains.{:012}", step));
+  const auto contacts = dumps.parent_path() / "contacts";
+  for (const auto step : steps) {
+    lammps::read_dump_frame(dumps / fmt::format("grains.{:012}", step));
+    const auto network = contacts / fmt::format("contacts.{:012}", step);
+    if (fs::exists(network)) lammps::read_dump_frame(network);
+  }
 }
 
 /// All outputs of the scene look at the dumps, no more and no less.

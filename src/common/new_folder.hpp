@@ -15,6 +15,7 @@ class NewFolder {
  public:
   /// InputError if something is there that is no empty folder; `why` ends its message.
   explicit NewFolder(std::filesystem::path path, const std::string& why = {}) : path_(std::move(path)) {
+    if (path_.empty()) throw InputError("the folder for what is written: its name is empty");
     std::error_code error;
     const bool there = std::filesystem::exists(path_, error);
     if (there && !std::filesystem::is_directory(path_, error))

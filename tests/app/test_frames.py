@@ -236,6 +236,7 @@ class Frames(unittest.TestCase):
                 self.assertEqual(os.listdir(self.path("empty")), [])
         for words in (("convert", "flat", "--to", "csv", "-o"), ("measure", "flat", "-o"), ("export", "flat", "--lammps")):
             self.assertIn("is a file; name a new folder", self.call(*words, "flat.toml", status=2).stderr)
+            self.assertIn("its name is empty", self.call(*words, "", status=2).stderr)
 
     def test_numbers_beyond_all_bounds_are_refused(self):
         frame = "2\nProperties=species:S:1:pos:R:3:radius:R:1\nA 0 0 0 .5\nA %s 3 3 .5\n"

@@ -337,10 +337,20 @@ class Lammps(unittest.TestCase):
         subprocess.run(["lmp", "-in", "in.lammps"], cwd=folder, capture_output=True, check=True)
         self.call("import", "there", "-o", "run", "--quiet")
         before = table(self.path("run", "series.csv"))
-        middle = os.path.join(folder, "dumps", sorted(os.listdir(os.path.join(folder, "dumps")))[2])
-        with open(middle, encoding="utf-8") as file:
-            lines = file.read().splitlines()
-        for wrong, what in ((lines[:-3], "cut short"), (lines[:-1] + [lines[-1].rsplit(" ", 1)[0] + " nan"], "a value is no number")):
+        for kind in ("contacts", "dumps"):
+            middle = os.path.join(folder, kind, sorted(os.listdir(os.path.join(folder, kind)))[2])
+            whole = self.text_of(middle)
+            self.spoilt(folder, middle, before)
+            self.write(middle, whole)
+
+    def text_of(self, path):
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    def spoilt(self, folder, middle, before):
+        lines = self.text_of(middle).splitlines()
+        last = lines[-1].split()
+        for wrong, what in ((lines[:-3], "cut short"), (lines[:-1] + [" ".join([last[0], "nan", *last[2:]])], "a value is no number")):
             with open(middle, "w", encoding="utf-8") as file:
                 file.write("\n".join(wrong) + "\n")
             for words in (("-o", "run", "--force"), ()):
