@@ -157,6 +157,11 @@ CellGrid cell_grid(const Plot& plot) {
     for (std::size_t i = 0; s.kind == Kind::cells && i < s.x.size(); ++i)
       if (is_known(s, i)) grid.x.push_back(s.x[i]), grid.y.push_back(s.y[i]);
   sort_and_merge(grid.x), sort_and_merge(grid.y);
+  constexpr std::size_t most = 1'000'000;  // a page has hardly more dots
+  if (grid.x.size() * grid.y.size() > most)
+    throw InputError(fmt::format(
+        "cells: {} values of x and {} of y make more than {} cells: rows are to lie on a grid; draw markers",
+        grid.x.size(), grid.y.size(), most));
   grid.owner.assign(grid.x.size() * grid.y.size(), -1);
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     const auto& s = plot.series[k];

@@ -229,6 +229,11 @@ class Builder {
     for (const auto& [y, row] : of) map.x.insert(map.x.end(), row->x.begin(), row->x.end());
     std::sort(map.x.begin(), map.x.end());
     map.x.erase(std::unique(map.x.begin(), map.x.end()), map.x.end());
+    constexpr std::size_t most = 4'000'000;  // more than a page shows, and tens of megabytes
+    if (map.x.size() * of.size() > most)
+      fail_recipe(
+          fmt::format("map: {} values of x in {} rows make more than {} cells: they are to lie on a grid",
+                      map.x.size(), of.size(), most));
     for (const auto& [y, row] : of) {
       map.y.push_back(y);
       std::vector<double> values(map.x.size(), unknown);

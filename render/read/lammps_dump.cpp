@@ -56,6 +56,7 @@ Lattice read_box(TextLines& lines, std::string_view words) {
         lines.fail(fmt::format("an edge of the box, expected {} numbers", columns));
       values[c] = *value;
     }
+    if (!general && values[1] < values[0]) lines.fail("an edge of the box ends before it begins");
   }
   Lattice box;
   for (std::size_t c = 0; c < 3 && c < flags.size(); ++c) box.periodic[c] = flags[c] == "pp";

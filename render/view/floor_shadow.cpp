@@ -38,6 +38,7 @@ FloorShadow::FloorShadow(const Floor& floor, const std::vector<Ball>& balls, con
   double radii = 0;
   for (const Ball& ball : balls) radii += ball.radius;
   const double radius = radii / static_cast<double>(balls.size());
+  if (!std::isfinite(radius) || !std::isfinite(floor.radius)) return;  // grains beyond what squares can be of
   cell_ = std::max(radius / cells_per_radius, 2 * floor.radius / most_cells);
   size_ = static_cast<int>(std::ceil(2 * floor.radius / cell_));
   dark_.assign(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_), 0);

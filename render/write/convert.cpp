@@ -10,6 +10,7 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/in_child.hpp"
+#include "common/new_folder.hpp"
 #include "common/side_by_side.hpp"
 #include "read/run_frames.hpp"
 #include "write/frame_file.hpp"
@@ -19,15 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 4> endings{"dump", "xyz", "csv", "vtp"};
-
-void refuse_folder_in_use(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw InputError(folder.string() + ": is a file; name a folder for the frames");
-  if (fs::is_directory(folder, error) && !fs::is_empty(folder, error))
-    throw InputError(folder.string() +
-                     ": is not empty; name a new folder, so that no other frames stand among these");
-}
 
 bool is_tilted(const read::GrainFrame& frame) {
   if (!frame.lattice) return false;
@@ -61,30 +53,32 @@ Written written_from(const std::string& text) {
 
 class Conversion {
  public:
-  explicit Conversion(const ConvertJob& job) : job_(job) {}
+  explicit Conversion(const ConvertJob& job) : job_(job), folder_(job.folder, beside) {}
 
   ConvertReport go() {
     if (job_.one_file && job_.format == Format::vtp)
       throw InputError("--one-file: a VTK file holds one time; leave it out, or take another format");
-    refuse_folder_in_use(job_.folder);
     for (const auto& source : job_.sources)
       for (auto& frame : read::find_frames(source)) frames_.push_back(std::move(frame));
     // A shell gives dump.10 before dump.2.
     if (std::ranges::all_of(frames_, [](const auto& frame) { return frame.time.has_value(); }))
       std::ranges::stable_sort(frames_, {}, [](const auto& frame) { return *frame.time; });
     written_.resize(frames_.size());
-    written_[0] = add(0);  // what cannot be read leaves no folder
+    written_[0] = add(0);
     told(1);
     if (job_.jobs > 1 && !job_.one_file)
       side_by_side();
     else
       for (std::size_t k = 1; k < frames_.size(); ++k) written_[k] = add(k), told(k + 1);
     finish();
+    folder_.keep();
     return report_;
   }
 
  private:
+  static constexpr const char* beside = ", so that no other frames stand among these";
   const ConvertJob& job_;
+  NewFolder folder_;
   std::vector<read::FrameFile> frames_;
   std::vector<Written> written_;  // of each frame
   ConvertReport report_;
@@ -96,11 +90,8 @@ class Conversion {
   }
 
   void told(std::size_t done) const {
-    if (job_.progress && !job_.progress(done, frames_.size())) stop(done);
-  }
-  [[noreturn]] void stop(std::size_t done) const {
-    throw WorkError(
-        fmt::format("stopped; {} of {} frames are in {}", done, frames_.size(), job_.folder.string()));
+    if (job_.progress && !job_.progress(done, frames_.size()))
+      throw WorkError("stopped; nothing was written");
   }
 
   /// Each frame in a process of its own: VTK's readers are not made for threads, and what a frame took is given back.
@@ -122,7 +113,10 @@ class Conversion {
     const auto frame = read::parse_frame(read::read_files(file), job_.meanings);
     const FrameFacts facts{k, frame.time ? frame.time : file.time, job_.from_one};
     const auto bytes = bytes_of(frame, facts);
-    if (k == 0) fs::create_directories((job_.folder / name_of(k)).parent_path());
+    if (k == 0) {
+      folder_.make();
+      if (job_.format == Format::vtp) fs::create_directory(job_.folder / "frames");
+    }
     if (job_.one_file) {
       if (!whole_) whole_.emplace(job_.folder / fmt::format("frames.{}", ending()));
       whole_->write(bytes);

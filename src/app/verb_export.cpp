@@ -9,6 +9,7 @@
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/new_folder.hpp"
 #include "common/toml_reader.hpp"
 #include "engines/lammps/deck.hpp"
 #include "measure/outputs.hpp"
@@ -67,9 +68,7 @@ lammps::Deck deck_of(const scene::Scene& scene, double dt, const TomlReader& rea
 }
 
 void export_scene(const ExportArguments& a) {
-  std::error_code error;
-  if (fs::exists(a.folder, error) && !fs::is_empty(a.folder, error))
-    throw InputError(a.folder + ": is not empty; name a new folder");
+  NewFolder made(a.folder);
   const bool of_run = fs::is_directory(a.scene);
   const auto input = read_input(of_run ? (fs::path(a.scene) / "scene.toml").string() : a.scene);
   refuse_other_methods(input, a.settings);
@@ -90,10 +89,11 @@ void export_scene(const ExportArguments& a) {
   const auto steps = std::max(1LL, std::llround(scene.duration / dt)),
              between = std::max(1LL, std::llround(every / dt));
   const fs::path folder = a.folder;
-  fs::create_directories(folder);
+  made.make();
   write_atomically(folder / "scene.toml", scene::to_toml(scene));
   write_atomically(folder / "grains.data", deck.data);
   write_atomically(folder / "in.lammps", lammps::input_script(deck, steps, between));
+  made.keep();
   if (!a.quiet)
     tell(
         "export: {} steps, a dump every {}; there: mpirun -n RANKS lmp -in in.lammps; then: chute import {}\n",

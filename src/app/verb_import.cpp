@@ -35,6 +35,17 @@ void leave_out_unfinished(std::vector<std::int64_t>& steps, const fs::path& dump
   }
 }
 
+/// A dump in the middle that cannot be read would end the import when half of a run is written, and with --force in place of
+/// a whole one.
+void read_all_once(const std::vector<std::int64_t>& steps, const fs::path& dumps) {
+  const auto contacts = dumps.parent_path() / "contacts";
+  for (const auto step : steps) {
+    lammps::read_dump_frame(dumps / fmt::format("grains.{:012}", step));
+    const auto network = contacts / fmt::format("contacts.{:012}", step);
+    if (fs::exists(network)) lammps::read_dump_frame(network);
+  }
+}
+
 /// All outputs of the scene look at the dumps, no more and no less.
 std::vector<std::string> settings_for(const Input& input, const fs::path& dumps) {
   const auto table = parse_toml(input.text, input.name);
@@ -53,6 +64,7 @@ std::vector<std::string> settings_for(const Input& input, const fs::path& dumps)
     if (steps[k] != static_cast<std::int64_t>(k) * between)
       throw InputError(fmt::format("{}: the dump of step {} is missing", dumps.string(),
                                    static_cast<std::int64_t>(k) * between));
+  read_all_once(steps, dumps);
   const double every = static_cast<double>(between) * *dt;
   std::vector<std::string> settings{fmt::format("engine.dumps={}", dumps.string()),
                                     fmt::format("run.duration={}", static_cast<double>(steps.back()) * *dt)};

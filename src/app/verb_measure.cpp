@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "app/file_meanings.hpp"
@@ -11,6 +10,7 @@
 #include "app/snapshots.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
+#include "common/new_folder.hpp"
 #include "replay/frame_outputs.hpp"
 #include "replay/measure_frames.hpp"
 #include "run/version.hpp"
@@ -27,9 +27,7 @@ struct MeasureArguments {
 };
 
 void measure(const MeasureArguments& a) {
-  std::error_code error;
-  if (std::filesystem::exists(a.folder, error) && !std::filesystem::is_empty(a.folder, error))
-    throw InputError(a.folder + ": is not empty; name a new folder");
+  const NewFolder free(a.folder);  // before much is read
   const FileSays says{a.meanings.read(), a.bed};
   const auto [frames, times] = timed_frames(a.sources, says.meanings);
   watch_for_interrupt();
@@ -75,7 +73,6 @@ void add_measure(CLI::App& app) {
   verb->add_option("--from", a->from, "time of the first frame that counts")->capture_default_str();
   verb->add_option("--until", a->until, "time of the last one; default the last");
   verb->add_option("--gap", a->gap, "surfaces less than this apart touch, where a file has no contacts")
-      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_option("--bed", a->bed,
                    "types of grains that do not move, of other programs' files: --bed 1,wall")

@@ -324,8 +324,7 @@ void add_render(CLI::App& app) {
       "--time", a->time,
       "the line that tells the time, such as \"t = {:.1f} ms\", in the TeX of figures: {} or {:.1f} "
       "is where it stands; none for no such line");
-  verb->add_option("--time-scale", a->time_scale, "what the time is multiplied by there: 1000 for ms")
-      ->check(CLI::PositiveNumber);
+  verb->add_option("--time-scale", a->time_scale, "what the time is multiplied by there: 1000 for ms");
   verb->add_option("--font-size", a->font_size, "pixels, of all type; default by the size of the picture")
       ->check(CLI::Range(6.0, 200.0));
   verb->add_option("--background", a->background, "white, dark or transparent")->capture_default_str();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/error.hpp"
 #include "io/cells_file.hpp"
 
 namespace chute::measure {
@@ -28,11 +29,14 @@ class Grid {
  public:
   Grid(const RunContext& run, const CellsSpec& spec)
       : dimensions_(static_cast<std::size_t>(run.facts.dimensions)) {
+    double cells = 1;
     for (std::size_t k = 0; k < dimensions_; ++k) {
       side_[k] = k == 0 ? spec.width_x.value_or(spec.width) : spec.width;
       const double low = run.facts.domain[2 * k], high = run.facts.domain[2 * k + 1];
       if (!(high > low)) continue;
       origin_[k] = low;
+      cells *= std::max(1.0, (high - low) / side_[k]);
+      refuse_too_many(cells);
       count_[k] = std::max(1, static_cast<int>(std::lround((high - low) / side_[k])));
       side_[k] = (high - low) / count_[k];
       fixed_[k] = true;
@@ -71,6 +75,14 @@ class Grid {
   }
   std::vector<CellSums> sums_;
 
+  /// Their sums would take more than a gigabyte, and a file that nobody opens.
+  static void refuse_too_many(double cells) {
+    constexpr double most = 1e7;
+    if (cells > most)
+      throw InputError(fmt::format(
+          "output.cells.width: {:.2g} cells lie where grains are, at most {:.0e} can be summed; give a larger width",
+          cells, most));
+  }
   std::size_t total() const {
     return static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
            static_cast<std::size_t>(count_[2]);
@@ -107,6 +119,7 @@ void Grid::make_room(const GrainsView& grains) {
     first[k] = low, count[k] = high - low + 1;
   }
   if (first == first_ && count == count_) return;
+  refuse_too_many(static_cast<double>(count[0]) * count[1] * count[2]);
   const auto old = std::exchange(sums_, {});
   const auto old_first = std::exchange(first_, first), old_count = std::exchange(count_, count);
   sums_.resize(total());

@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "common/new_folder.hpp"
 #include "io/run_files.hpp"
 #include "measure/series.hpp"
 #include "replay/frame_outputs.hpp"
@@ -50,20 +51,23 @@ double bead_spacing(const Snapshot& frame, double diameter) {
 
 class Measuring {
  public:
-  explicit Measuring(const MeasureJob& job) : job_(job) {}
+  explicit Measuring(const MeasureJob& job) : job_(job), folder_(job.folder) {}
 
   MeasureReport go() {
     choose_frames();
     auto first = job_.read(chosen_.front());
+    folder_.make();
     set_up(first);
     play(std::move(first));
     write();
+    folder_.keep();
     tell_what_is_missing();
     return report_;
   }
 
  private:
   const MeasureJob& job_;
+  NewFolder folder_;  // emptied last, after those who write into it
   MeasureReport report_;
   std::vector<std::size_t> chosen_;
   double between_ = 1;
@@ -108,6 +112,11 @@ class Measuring {
     if (first.size() == 0) throw InputError(first.name + ": holds no grains");
     const double moving = mean_diameter(first, false), bed = mean_diameter(first, true);
     const double length = bed > 0 ? bed : moving;
+    const double widest = 2 * *std::max_element(first.radius.begin(), first.radius.end());
+    if (!(job_.gap >= 0 && job_.gap <= widest))  // nor is there memory for all pairs of grains
+      throw InputError(fmt::format(
+          "--gap {:g}: must be from 0 to the largest diameter, {:g}: grains farther apart do not touch",
+          job_.gap, widest));
     const double g = std::hypot(first.gravity[0], first.gravity[1], first.gravity[2]);
     run_.title = job_.title;
     run_.made_by = (first.units.empty() ? "" : fmt::format("units: {}; ", first.units)) + job_.made_by;

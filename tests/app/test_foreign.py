@@ -291,6 +291,23 @@ class Movies(Foreign):
     def test_another_ending_is_refused(self):
         self.assertIn("must end in .mp4, .webm, .mov, .gif or .png", self.call("render", "m.xyz", "--movie", "m.avi", status=2).stderr)
 
+    def test_grains_beyond_all_measures_are_told_in_a_line(self):
+        rows = "".join("%d 0 0 0.5\n" % i for i in range(5))
+        for last in ("1e300 1 1 0.5", "1 1 1 1e200"):
+            self.write("far.xyz", "6\nProperties=pos:R:3:radius:R:1\n%s%s\n" % (rows, last))
+            said = self.call("render", "far.xyz", "-o", "far", "--size", "160x120", "--quiet", status=1).stderr
+            self.assertIn("far.xyz: the picture came out blank: no grain is in view", said)
+            self.assertEqual(said.count("\n"), 1)
+
+    def test_a_map_of_rows_that_lie_on_no_grid_is_refused(self):
+        rows = "".join("%d,%d,1\n" % (i, i * 7 % 2003) for i in range(2003))
+        self.write("t.csv", "a,b,z\n" + rows)
+        self.write("m.toml", 'title = "m"\n[data]\ntable = "t.csv"\nx = "a"\ny = "b"\nz = "z"\nseries = "c"\n[[plot.panel]]\n'
+                   'x = { label = "$a$" }\ny = { label = "$b$" }\nmap = { series = "c*", filled = 4 }\n')
+        said = self.call("figure", "m.toml", "-o", "m", "--quiet", status=2).stderr
+        self.assertIn("map: 2003 values of x in 2003 rows make more than 4000000 cells", said)
+        self.assertFalse(os.path.exists(self.path("m")))
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=1)

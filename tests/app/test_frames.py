@@ -216,6 +216,44 @@ class Frames(unittest.TestCase):
         self.assertIn("is not empty", line("measure", "flat", "-o", "flat"))
         self.assertFalse(os.path.exists(self.path(out)))
 
+    def test_what_fails_on_its_way_leaves_nothing(self):
+        """The first frame is good, a later one is not: what was written goes again, and what was there stays."""
+        good = "2\n%s\nA 0 0 0 .5\nA 0.9 0 0 .5\n"
+        header = 'Lattice="8 0 0 0 8 0 0 0 8" Properties=species:S:1:pos:R:3:radius:R:1 Time=%d'
+        os.mkdir(self.path("later"))
+        os.mkdir(self.path("empty"))
+        for k, text in enumerate((good % (header % 0), "2\nProperties=species:S:1:pos:R:3 Time=1\nA 0 0 0\nA 1 0 0\n")):
+            with open(self.path("later", "%d.xyz" % k), "w", encoding="utf-8") as file:
+                file.write(text)
+        made = os.path.join("made", "for", "it")
+        for words in (("measure",), ("convert", "--to", "csv"), ("convert", "--to", "vtp", "--jobs", 1),
+                      ("convert", "--to", "xyz", "--one-file")):
+            for out in (made, "empty"):
+                said = self.call(words[0], "later", *words[1:], "-o", out, status=2).stderr
+                self.assertIn("later/1.xyz: no array of radii", said)
+                self.assertEqual(said.count("\n"), 1, said)
+                self.assertFalse(os.path.exists(self.path("made")))
+                self.assertEqual(os.listdir(self.path("empty")), [])
+        for words in (("convert", "flat", "--to", "csv", "-o"), ("measure", "flat", "-o"), ("export", "flat", "--lammps")):
+            self.assertIn("is a file; name a new folder", self.call(*words, "flat.toml", status=2).stderr)
+            self.assertIn("its name is empty", self.call(*words, "", status=2).stderr)
+
+    def test_numbers_beyond_all_bounds_are_refused(self):
+        frame = "2\nProperties=species:S:1:pos:R:3:radius:R:1\nA 0 0 0 .5\nA %s 3 3 .5\n"
+        with open(self.path("far.xyz"), "w", encoding="utf-8") as file:
+            file.write(frame % "1e5")
+        for gap in ("nan", "inf", "1.5", "-1"):
+            self.assertIn("must be from 0 to the largest diameter, 1:", self.call("measure", "far.xyz", "-o", "beyond", "--gap", gap, status=2).stderr)
+        said = self.call("measure", "far.xyz", "-o", "beyond", "--only", "cells", "--set", "cells.width=0.01", status=2).stderr
+        self.assertIn("output.cells.width: ", said)
+        box = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 4\n4 0\n0 4\n"
+               "ITEM: ATOMS id type x y z radius\n1 1 1 1 1 0.5\n")
+        with open(self.path("backwards.dump"), "w", encoding="utf-8") as file:
+            file.write(box)
+        said = self.call("measure", "backwards.dump", "-o", "beyond", status=2).stderr
+        self.assertIn("backwards.dump:7: an edge of the box ends before it begins", said)
+        self.assertFalse(os.path.exists(self.path("beyond")))
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -323,6 +323,43 @@ class Lammps(unittest.TestCase):
         self.assertIn('"lammps" needs the program lmp, Debian\'s package lammps: apt-get install lammps', said)
         self.assertFalse(os.path.exists(self.path("run")))
 
+    @unittest.skipUnless(THERE and shutil.which("mpirun"), "lmp and mpirun")
+    def test_more_processes_than_start_are_refused(self):
+        self.write("flow.toml", FLOW)
+        said = self.call("run", "flow.toml", "--set", "engine.method=lammps", "-o", "run", "--ranks", 99999, status=2).stderr
+        self.assertIn("--ranks 99999: at most", said)
+        self.assertFalse(os.path.exists(self.path("run")))
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_a_bad_dump_in_the_middle_costs_nothing(self):
+        self.write("flow.toml", FLOW)
+        folder = self.path(self.exported())
+        subprocess.run(["lmp", "-in", "in.lammps"], cwd=folder, capture_output=True, check=True)
+        self.call("import", "there", "-o", "run", "--quiet")
+        before = table(self.path("run", "series.csv"))
+        for kind in ("contacts", "dumps"):
+            middle = os.path.join(folder, kind, sorted(os.listdir(os.path.join(folder, kind)))[2])
+            whole = self.text_of(middle)
+            self.spoilt(folder, middle, before)
+            self.write(middle, whole)
+
+    def text_of(self, path):
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    def spoilt(self, folder, middle, before):
+        lines = self.text_of(middle).splitlines()
+        last = lines[-1].split()
+        for wrong, what in ((lines[:-3], "cut short"), (lines[:-1] + [" ".join([last[0], "nan", *last[2:]])], "a value is no number")):
+            with open(middle, "w", encoding="utf-8") as file:
+                file.write("\n".join(wrong) + "\n")
+            for words in (("-o", "run", "--force"), ()):
+                said = self.call("import", "there", *words, status=2).stderr
+                self.assertIn(what, said)
+                self.assertEqual(said.count("\n"), 1, said)
+            self.assertEqual(table(self.path("run", "series.csv")), before)
+            self.assertFalse(os.path.exists(os.path.join(folder, "run")))
+
     def exported(self):
         self.call("export", "flow.toml", "--lammps", "there", "--quiet")
         return "there"

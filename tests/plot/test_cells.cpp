@@ -167,6 +167,18 @@ TEST_CASE("lines run where phases meet, and nowhere else") {
   CHECK(length == Approx(4 * 100 + 3 * 100));
 }
 
+TEST_CASE("rows that lie on no grid make no cells") {
+  Series s;
+  s.name = "anywhere", s.kind = Kind::cells;
+  for (int i = 0; i < 1001; ++i) s.x.push_back(i), s.y.push_back(i * 10 % 1001);
+  Plot plot;
+  plot.series = {s};
+  CHECK_THROWS_WITH(cell_grid(plot),
+                    Catch::Contains("1001 values of x and 1001 of y make more than 1000000 cells"));
+  plot.series[0].x.pop_back(), plot.series[0].y.pop_back();
+  CHECK(cell_grid(plot).owner.size() == 1000 * 1000);
+}
+
 TEST_CASE("a recipe makes a phase diagram of a sweep's rows, which fills its frame") {
   const auto text = parse_toml("[plot]\nkind = \"cells\"\nx = { label = \"$x$\" }\n", "fig.toml");
   TomlReader reader(text, "fig.toml");

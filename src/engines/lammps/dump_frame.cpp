@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
@@ -30,7 +31,7 @@ class Words {
     text_.remove_prefix(first);
     double value = 0;
     const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-    if (error != std::errc()) fail("a value is no number");
+    if (error != std::errc() || !std::isfinite(value)) fail("a value is no number");
     text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
     return value;
   }

@@ -61,6 +61,12 @@ LammpsProcess::LammpsProcess(int ranks) {
         "engine.method: \"lammps\" needs the program lmp, Debian's package lammps: apt-get install lammps");
   if (ranks > 1 && find_program("mpirun").empty())
     throw InputError("--ranks: several need mpirun, Debian's package mpi-default-bin");
+  constexpr int most_a_core = 16;  // far more do not start within minutes
+  const int most = most_a_core * static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (ranks > most)
+    throw InputError(
+        fmt::format("--ranks {}: at most {} here, {} for each core; no more than cores is fastest", ranks,
+                    most, most_a_core));
   std::string name = (fs::temp_directory_path() / "chute-lammps-XXXXXX").string();
   if (!::mkdtemp(name.data()))
     throw WorkError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
