@@ -6,7 +6,7 @@ using namespace chute;
 using namespace chute::laws;
 
 namespace {
-const RegularisedCoulomb law{100, 0.5, MassScaling::none};
+const RegularisedCoulomb law{100, 0.5, MassScaling::none, {}};
 }
 
 // (2.10): F_s = −min(γ_s |v_s|, μ |F_n|) v_s / |v_s|
@@ -39,7 +39,7 @@ TEST_CASE("friction takes energy, never gives it") {
 
 TEST_CASE("γ_s scales with the reduced mass where asked") {
   for (const auto scaling : {MassScaling::damping, MassScaling::both}) {
-    const RegularisedCoulomb scaled{100, 0.5, scaling};
+    const RegularisedCoulomb scaled{100, 0.5, scaling, {}};
     CHECK(scaled(Vec<1>{{0.01}}, 40, 0.25)[0] == Approx(-0.25));
     CHECK(scaled(Vec<1>{{10}}, 40, 0.25)[0] == Approx(-20));  // the limit does not
   }

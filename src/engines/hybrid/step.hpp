@@ -189,14 +189,16 @@ class Step {
   bool collide(Partners& p, double s);
   void lean();
   void remember();
-  [[gnu::always_inline]] void press(Partners& p, double s, const Relative& before, const Vec<D>& n,
-                                    laws::Collider<D>& i, laws::Collider<D>& j);
-  [[gnu::always_inline]] void press_to(Partners& p, double s, const Relative& before, const Touch& touch,
-                                       double pressed, const Vec<D>& sheared, laws::Collider<D>& i,
-                                       laws::Collider<D>& j);
-  [[gnu::always_inline]] void pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse,
-                                   const Vec<turns<D>>& spin_i, const Vec<turns<D>>& spin_j);
-  [[gnu::always_inline]] void note(Partners& p, double s, const Relative& before, const Vec<D>& impulse);
+  [[gnu::always_inline]] inline void press(Partners& p, double s, const Relative& before, const Vec<D>& n,
+                                           laws::Collider<D>& i, laws::Collider<D>& j);
+  [[gnu::always_inline]] inline void press_to(Partners& p, double s, const Relative& before,
+                                              const Touch& touch, double pressed, const Vec<D>& sheared,
+                                              laws::Collider<D>& i, laws::Collider<D>& j);
+  [[gnu::always_inline]] inline void pass(Partners& p, double s, const Relative& before,
+                                          const Vec<D>& impulse, const Vec<turns<D>>& spin_i,
+                                          const Vec<turns<D>>& spin_j);
+  [[gnu::always_inline]] inline void note(Partners& p, double s, const Relative& before,
+                                          const Vec<D>& impulse);
 };
 
 }  // namespace chute::hybrid
