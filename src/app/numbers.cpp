@@ -1,6 +1,7 @@
 #include "app/numbers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -8,6 +9,7 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "common/toml_reader.hpp"
 
 namespace chute::app {
 
@@ -30,6 +32,16 @@ std::vector<double> numbers(const std::string& option, const std::string& text, 
 
 void require(bool holds, const std::string& option, const std::string& text, const char* expected) {
   if (!holds) throw InputError(fmt::format("{} {}: expected {}", option, text, expected));
+}
+
+std::size_t choice(const std::string& option, const std::string& word,
+                   const std::vector<std::string>& words) {
+  const auto found = std::ranges::find(words, word);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  const auto hint = nearest(word, words);
+  throw InputError(fmt::format("{} {}: not known{}, allowed: {}", option, word,
+                               hint.empty() ? "" : fmt::format(", did you mean {}?", hint),
+                               fmt::join(words, ", ")));
 }
 
 bool all_given(const std::vector<double>& values) {

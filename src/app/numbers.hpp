@@ -13,6 +13,9 @@ std::vector<double> numbers(const std::string& option, const std::string& text, 
 /// InputError that says what `option` expects, unless it holds.
 void require(bool holds, const std::string& option, const std::string& text, const char* expected);
 
+/// Which of the words an option names. InputError with the nearest one and all of them.
+std::size_t choice(const std::string& option, const std::string& word, const std::vector<std::string>& words);
+
 bool all_given(const std::vector<double>& values);
 
 /// Width and height of `--size WIDTHxHEIGHT`, whole numbers; what is too small or too large is found by whoever draws.

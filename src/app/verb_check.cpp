@@ -2,7 +2,6 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 
 #include "app/input.hpp"
@@ -27,6 +26,12 @@ struct Checked {
   std::vector<std::string> warnings, chosen{};
 };
 
+/// A session takes the memory that a run does, so that it is made only where that is there.
+void refuse_what_a_run_would(const scene::Scene& scene, const std::string& name, bool beyond_machine) {
+  if (!beyond_machine) run::refuse_beyond_machine(scene, name, {});
+  if (run::beyond_machine(scene, {}).empty()) run::Session(scene, 1);
+}
+
 Checked check(const std::string& file, const std::vector<std::string>& settings, bool beyond_machine) {
   const auto input = read_input(file);
   Checked found{input.name, {}, {}, {}};
@@ -40,8 +45,7 @@ Checked check(const std::string& file, const std::vector<std::string>& settings,
     double cost = 0;
     for (const auto& place : places) {
       const auto scene = base.scene(place.set);
-      if (!beyond_machine) run::refuse_beyond_machine(scene, input.name, {});
-      if (run::beyond_machine(scene, {}).empty()) run::Session(scene, 1);
+      refuse_what_a_run_would(scene, input.name, beyond_machine);
       cost += run::cost_of(scene);
     }
     sweep::Base kept = base;
@@ -61,10 +65,7 @@ Checked check(const std::string& file, const std::vector<std::string>& settings,
     }
   } else {
     const auto scene = scene::parse_scene(input.text, input.name, settings);
-    // what it says first is what a run would say first; the session takes the memory that is estimated here
-    if (!beyond_machine) run::refuse_beyond_machine(scene, input.name, {});
-    std::optional<run::Session> refuses_what_a_run_would;
-    if (run::beyond_machine(scene, {}).empty()) refuses_what_a_run_would.emplace(scene, 1);
+    refuse_what_a_run_would(scene, input.name, beyond_machine);
     found.resolved = to_toml(scene), found.facts = run::facts(scene), found.warnings = run::warnings(scene);
     found.chosen = scene.chosen;
   }

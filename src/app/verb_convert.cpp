@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -7,11 +6,11 @@
 
 #include "app/file_meanings.hpp"
 #include "app/interrupt.hpp"
+#include "app/numbers.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
-#include "common/toml_reader.hpp"
 #include "write/convert.hpp"
 
 namespace chute::app {
@@ -25,21 +24,12 @@ struct ConvertArguments {
   bool one_file = false, from_one = false, quiet = false;
 };
 
-write::Format format_of(const std::string& word) {
-  const std::vector<std::string> words(write::format_words.begin(), write::format_words.end());
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (word == words[i]) return static_cast<write::Format>(i);
-  const auto hint = nearest(word, words);
-  throw InputError(fmt::format("--to {}: not known{}, allowed: {}", word,
-                               hint.empty() ? "" : fmt::format(", did you mean {}?", hint),
-                               fmt::join(words, ", ")));
-}
-
 void convert(const ConvertArguments& a) {
   write::ConvertJob job;
   job.sources.assign(a.sources.begin(), a.sources.end());
   job.folder = a.folder;
-  job.format = format_of(a.format);
+  job.format = static_cast<write::Format>(
+      choice("--to", a.format, {write::format_words.begin(), write::format_words.end()}));
   job.meanings = a.meanings.read();
   job.jobs = a.jobs;
   job.one_file = a.one_file, job.from_one = a.from_one;

@@ -6,6 +6,7 @@
 
 #include "app/input.hpp"
 #include "app/say.hpp"
+#include "app/settings.hpp"
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
@@ -111,8 +112,8 @@ void add_export(CLI::App& app) {
       ->required();
   verb->add_option("--lammps", a->folder, "folder for grains.data, in.lammps and scene.toml; new or empty")
       ->required();
-  verb->add_option("--set", a->settings, "change a key of the scene: --set engine.integrator=verlet")
-      ->allow_extra_args(false);
+  add_settings(*verb, "--set", "KEY=VALUE", a->settings,
+               "change a key of the scene: engine.integrator=verlet");
   verb->add_flag("--quiet", a->quiet, "no word of what was written");
   verb->footer(
       "Example: chute export scenes/chute-3d.toml --set engine.integrator=verlet --lammps out/lammps");

@@ -7,6 +7,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
+#include "app/settings.hpp"
 #include "app/snapshots.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
@@ -67,9 +68,8 @@ void add_measure(CLI::App& app) {
                    fmt::format("of {}; default those that the frames have something for",
                                fmt::join(replay::measurable(), ", ")))
       ->delimiter(',');
-  verb->add_option("--set", a->settings,
-                   "a key of [output]: --set profiles.bin=0.5, --set profiles.from=steady")
-      ->allow_extra_args(false);
+  add_settings(*verb, "--set", "KEY=VALUE", a->settings,
+               "a key of [output]: profiles.bin=0.5, profiles.from=steady");
   verb->add_option("--from", a->from, "time of the first frame that counts")->capture_default_str();
   verb->add_option("--until", a->until, "time of the last one; default the last");
   verb->add_option("--gap", a->gap, "surfaces less than this apart touch, where a file has no contacts")

@@ -137,22 +137,6 @@ view::FrameRange read_frames(const std::string& text) {
   return range;
 }
 
-view::Background read_background(const std::string& word) {
-  const std::vector<std::string> words{"white", "dark", "transparent"};
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (word == words[i]) return static_cast<view::Background>(i);
-  const auto hint = nearest(word, words);
-  throw InputError(fmt::format("--background {}: not known{}, allowed: white, dark, transparent", word,
-                               hint.empty() ? "" : fmt::format(", did you mean {}?", hint)));
-}
-
-view::StillFormat read_format(const std::string& word) {
-  const std::vector<std::string> words{"png", "pdf", "svg"};
-  const auto found = std::find(words.begin(), words.end(), word);
-  require(found != words.end(), "--format", word, "png, pdf or svg");
-  return static_cast<view::StillFormat>(found - words.begin());
-}
-
 view::RenderJob job_of(const RenderArguments& a) {
   view::RenderJob job;
   job.source = a.run;
@@ -169,7 +153,8 @@ view::RenderJob job_of(const RenderArguments& a) {
   std::sort(style.camera_keys.begin(), style.camera_keys.end(),
             [](const auto& one, const auto& other) { return one.time < other.time; });
   if (!a.frames.empty()) job.frames = read_frames(a.frames);
-  style.background = read_background(a.background);
+  style.background =
+      static_cast<view::Background>(choice("--background", a.background, {"white", "dark", "transparent"}));
   style.tilt = a.tilt, style.arrows = a.arrows, style.chains = a.chains || style.colors_forces();
   style.copies = a.copies || a.copy_reach != style.copy_reach, style.copy_reach = a.copy_reach;
   style.opacity = a.opacity;
@@ -177,7 +162,8 @@ view::RenderJob job_of(const RenderArguments& a) {
   for (const auto& cut : a.cuts) style.cuts.push_back(read_cut(cut));
   style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
   job.movie = a.movie, job.output = a.output;
-  job.format = read_format(a.format), job.dpi = a.dpi;
+  job.format = static_cast<view::StillFormat>(choice("--format", a.format, {"png", "pdf", "svg"}));
+  job.dpi = a.dpi;
   job.frames_per_second = a.fps, job.jobs = a.jobs;
   job.meanings = a.meanings.read();
   auto& meanings = job.meanings;

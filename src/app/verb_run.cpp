@@ -67,7 +67,9 @@ void run(const RunArguments& arguments) {
     throw InputError(
         fmt::format("--ranks: for engine.method = \"lammps\"; \"{}\" takes --threads", scene.engine.word()));
   if (of_lammps) options.threads = arguments.ranks;
-  if (!arguments.beyond_machine) run::refuse_beyond_machine(scene, input.name, options.directory);
+  // What a run that goes on has written already would count twice against the disk.
+  if (!arguments.beyond_machine && !arguments.resume)
+    run::refuse_beyond_machine(scene, input.name, options.directory);
   // A run that goes on was told both when it began.
   if (!arguments.quiet && !arguments.resume) {
     for (const auto& warning : run::warnings(scene)) tell("warning: {}\n", warning);

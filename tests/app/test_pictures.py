@@ -182,7 +182,7 @@ class Render(Pictures):
         for words, told in ((["--camera-at", "foo"], "expected TIME="), (["--camera-at", "1=follow"], "expected TIME="),
                             (["--camera-at", "1=10:20"], "does nothing here: these grains lie in a plane"),
                             (["--camera-at", "1=0:1:0:1", "--camera-at", "1=0:2:0:2"], "a time of its own"),
-                            (["--opacity", "2"], "--opacity"), (["--format", "bmp"], "png, pdf or svg"),
+                            (["--opacity", "2"], "--opacity"), (["--format", "bmp"], "png, pdf, svg"),
                             (["--size", "86x60mm"], "with --dpi in mm"), (["--dpi", "1"], "1 dpi"),
                             (["--copies-reach", "0"], "copies 0 periods far"),
                             (["--contacts", self.path("nowhere")], "nowhere: no such file"),

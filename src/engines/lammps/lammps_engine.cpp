@@ -9,6 +9,7 @@
 
 #include "common/atomic_file.hpp"
 #include "common/state_archive.hpp"
+#include "core/pair_contact.hpp"
 #include "engines/lammps/dump_frame.hpp"
 
 namespace chute::lammps {
@@ -186,16 +187,11 @@ void LammpsEngine<D>::take_contacts(const fs::path& file) const {
     const auto [a, b] = std::minmax(i, j);
     const auto u = static_cast<std::size_t>(a), w = static_cast<std::size_t>(b);
     if (u >= grains_.moving) continue;
-    const Vec<D> way = around_.domain.way(grains_.place(u), grains_.place(w));
-    const double far = norm(way);
-    Contact contact;
-    contact.a = a, contact.b = b;
-    contact.overlap = grains_.radius[u] + grains_.radius[w] - far;
+    Contact contact = pair_contact(grains_, around_.domain, u, w);
     if (!(contact.overlap > 0)) continue;
-    const Vec<D> n = (1 / far) * way;
+    Vec<D> n;
+    for (int k = 0; k < D; ++k) n[k] = contact.normal[static_cast<std::size_t>(k)];
     set_force<D>(contact, n, force);
-    contact.branch = as_file_vector(way);
-    contact.point = as_file_vector(grains_.place(u) + (grains_.radius[u] - 0.5 * contact.overlap) * n);
     contacts_.push_back(contact);
   }
   contacts_.insert(contacts_.end(), of_walls.begin(), of_walls.end());
