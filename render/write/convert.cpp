@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/in_child.hpp"
 #include "common/new_folder.hpp"
+#include "common/pvd.hpp"
 #include "common/side_by_side.hpp"
 #include "read/run_frames.hpp"
 #include "write/frame_file.hpp"
@@ -146,14 +147,16 @@ class Conversion {
       whole_->flush();
       whole_->move_into_place();
     }
-    std::vector<std::pair<double, std::string>> times;
+    std::vector<double> times;
+    std::vector<std::string> names;
     for (std::size_t k = 0; k < frames_.size(); ++k) {
-      times.emplace_back(written_[k].time.value_or(static_cast<double>(k)), name_of(k));
+      times.push_back(written_[k].time.value_or(static_cast<double>(k)));
+      names.push_back(name_of(k));
       report_.left_out += written_[k].left_out;
       report_.tilted |= written_[k].tilted;
     }
     report_.frames = frames_.size();
-    if (job_.format == Format::vtp) write_atomically(job_.folder / "frames.pvd", time_index(times));
+    if (job_.format == Format::vtp) write_atomically(job_.folder / "frames.pvd", pvd(times, names));
   }
 };
 

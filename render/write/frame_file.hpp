@@ -28,7 +28,4 @@ std::string csv_rows(const read::GrainFrame& frame, const FrameFacts& facts, boo
 /// VTK, polygonal and compressed, with the names and the facts of chute's own frames. WorkError if VTK cannot.
 std::string vtp_frame(const read::GrainFrame& frame, const FrameFacts& facts);
 
-/// Time as ParaView reads it, of files in its order.
-std::string time_index(const std::vector<std::pair<double, std::string>>& files);
-
 }  // namespace chute::write

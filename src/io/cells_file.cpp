@@ -10,26 +10,9 @@
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "vtk/fill.hpp"
 
 namespace chute::io {
-namespace {
-
-void add_number(vtkFieldData* to, std::string_view name, double value) {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(std::string(name).c_str());
-  array->InsertNextValue(value);
-  to->AddArray(array);
-}
-
-void add_text(vtkFieldData* to, std::string_view name, const std::string& text) {
-  vtkNew<vtkStringArray> array;
-  array->SetName(std::string(name).c_str());
-  array->InsertNextValue(text);
-  to->AddArray(array);
-}
-
-}  // namespace
-
 std::string cells_vti(const CellFields& cells, const RunFacts& facts) {
   vtkNew<vtkImageData> data;
   // A grid one cell thick lies in a plane: VTK takes one layer of points for that.
@@ -47,9 +30,9 @@ std::string cells_vti(const CellFields& cells, const RunFacts& facts) {
       array->SetValue(static_cast<vtkIdType>(i), field.values[i]);
     data->GetCellData()->AddArray(array);
   }
-  add_text(data->GetFieldData(), fields::units, facts.units);
-  if (facts.clock != "time") add_text(data->GetFieldData(), fields::clock, facts.clock);
-  add_number(data->GetFieldData(), fields::time_value, cells.time);
+  vtk::add_text(data->GetFieldData(), fields::units, facts.units);
+  if (facts.clock != "time") vtk::add_text(data->GetFieldData(), fields::clock, facts.clock);
+  vtk::add_numbers(data->GetFieldData(), fields::time_value, std::array{cells.time});
   vtkNew<vtkXMLImageDataWriter> writer;
   writer->SetInputData(data);
   writer->SetWriteToOutputString(true);

@@ -18,74 +18,25 @@
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "vtk/fill.hpp"
 
 namespace chute::io {
 namespace {
 
-template <class VtkArray, class Value>
-void add_array(vtkDataSetAttributes* to, std::string_view name, std::size_t count, int components,
-               Value&& value) {
-  vtkNew<VtkArray> array;
-  array->SetName(std::string(name).c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  for (std::size_t i = 0; i < count; ++i)
-    for (int k = 0; k < components; ++k) array->SetTypedComponent(static_cast<vtkIdType>(i), k, value(i, k));
-  to->AddArray(array);
-}
-
-template <std::size_t N>
-void add_numbers(vtkPolyData* data, std::string_view name, const std::array<double, N>& values) {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(std::string(name).c_str());
-  for (double v : values) array->InsertNextValue(v);
-  data->GetFieldData()->AddArray(array);
-}
-
-void add_text(vtkPolyData* data, std::string_view name, const std::string& text) {
-  vtkNew<vtkStringArray> array;
-  array->SetName(std::string(name).c_str());
-  array->InsertNextValue(text);
-  data->GetFieldData()->AddArray(array);
-}
+using vtk::add_array;
+using vtk::add_numbers;
+using vtk::add_text;
+using vtk::add_vertices;
 
 void add_facts(vtkPolyData* data, const RunFacts& facts) {
-  add_text(data, fields::units, facts.units);
-  if (facts.clock != "time") add_text(data, fields::clock, facts.clock);
-  add_numbers(data, fields::domain, facts.domain);
-  add_numbers(data, fields::gravity, facts.gravity);
-}
-
-/// Points with one vertex cell each: some mappers draw only points that have one.
-template <class Place>
-void add_vertices(vtkPolyData* data, std::size_t count, Place&& place) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(count));
-  vtkNew<vtkCellArray> vertices;
-  vertices->AllocateExact(static_cast<vtkIdType>(count), static_cast<vtkIdType>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto id = static_cast<vtkIdType>(i);
-    const std::array<double, 3> r = place(i);
-    points->SetPoint(id, r.data());
-    vertices->InsertNextCell(1, &id);
-  }
-  data->SetPoints(points);
-  data->SetVerts(vertices);
+  add_text(data->GetFieldData(), fields::units, facts.units);
+  if (facts.clock != "time") add_text(data->GetFieldData(), fields::clock, facts.clock);
+  add_numbers(data->GetFieldData(), fields::domain, facts.domain);
+  add_numbers(data->GetFieldData(), fields::gravity, facts.gravity);
 }
 
 std::string bytes(vtkPolyData* data, Packing packing = Packing::compressed) {
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  if (packing == Packing::compressed)
-    writer->SetCompressorTypeToZLib();
-  else
-    writer->SetCompressorTypeToNone();
-  writer->SetWriteToOutputString(true);
-  if (!writer->Write()) throw WorkError("VTK could not encode a file: out of memory?");
-  return writer->GetOutputString();
+  return vtk::bytes(data, packing == Packing::compressed);
 }
 
 /// A field of the grains. Vectors and turns have three components in files whatever the dimension: of a vector in the
@@ -118,7 +69,7 @@ std::string grains_vtp(const GrainsView& grains, const RunFacts& facts, Packing 
     const auto& column = grains.force[static_cast<std::size_t>(k)];
     return column.empty() ? 0 : column[i];
   });
-  add_numbers(data, fields::time_value, std::array{grains.time});
+  add_numbers(data->GetFieldData(), fields::time_value, std::array{grains.time});
   add_facts(data, facts);
   return bytes(data, packing);
 }
@@ -196,7 +147,7 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
     impulse(fields::shear_impulse, &Contact::shear_force);
     number(fields::mobilisation, &Contact::mobilisation);
   }
-  add_numbers(data, fields::time_value, std::array{grains.time});
+  add_numbers(data->GetFieldData(), fields::time_value, std::array{grains.time});
   add_facts(data, facts);
   return bytes(data);
 }
@@ -222,15 +173,6 @@ std::string walls_vtp(const RunFacts& facts) {
                          [&](std::size_t i, int) { return wall[i]; });
   add_facts(data, facts);
   return bytes(data);
-}
-
-std::string pvd(std::span<const double> times, std::span<const std::string> files) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
-  for (std::size_t i = 0; i < files.size(); ++i)
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times[i], files[i]);
-  return text + "  </Collection>\n</VTKFile>\n";
 }
 
 }  // namespace chute::io

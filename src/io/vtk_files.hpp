@@ -77,7 +77,4 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
 /// The walls as polygons (in 2D lines), as they stand at the start.
 std::string walls_vtp(const RunFacts& facts);
 
-/// Time index of files, as ParaView reads it.
-std::string pvd(std::span<const double> times, std::span<const std::string> files);
-
 }  // namespace chute::io

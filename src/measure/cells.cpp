@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "common/pvd.hpp"
 #include "io/cells_file.hpp"
 
 namespace chute::measure {
@@ -202,7 +203,7 @@ class Cells final : public Remembering<Cells> {
   void write(const Flow&) const override {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < times_.size(); ++k) names.push_back(name(k));
-    run_.write("cells.pvd", io::pvd(times_, names));
+    run_.write("cells.pvd", pvd(times_, names));
   }
   template <class Archive>
   void serialize(Archive& archive) {

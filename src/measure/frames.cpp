@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "common/pvd.hpp"
 #include "measure/contact_samples.hpp"
 #include "measure/outputs.hpp"
 
@@ -39,7 +40,7 @@ class Frames final : public Remembering<Frames> {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < times_.size(); ++k)
       names.push_back(name("frames", static_cast<std::int64_t>(k)));
-    run_.write("frames.pvd", io::pvd(times_, names));
+    run_.write("frames.pvd", pvd(times_, names));
     if (!run_.facts.walls.empty()) run_.write("walls.vtp", io::walls_vtp(run_.facts));
   }
 

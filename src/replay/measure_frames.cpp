@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/fields.hpp"
 #include "common/new_folder.hpp"
+#include "common/pvd.hpp"
 #include "io/run_files.hpp"
 #include "measure/series.hpp"
 #include "replay/frame_outputs.hpp"
@@ -184,7 +185,7 @@ class Measuring {
       if (job_.progress && !job_.progress(report_.frames, chosen_.size()))
         throw WorkError("stopped; nothing was measured");
     }
-    if (network_) run_.write("contacts.pvd", io::pvd(times, networks));
+    if (network_) run_.write("contacts.pvd", pvd(times, networks));
   }
 
   void note_what_is_there(const Snapshot& frame) {

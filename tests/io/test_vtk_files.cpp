@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
+#include "common/pvd.hpp"
 #include "core/random.hpp"
 #include "folder.hpp"
 #include "io/grains_file.hpp"
@@ -259,7 +260,7 @@ TEST_CASE("files are binary, compressed, and the same bytes each time") {
 TEST_CASE("the time index names every file with its time") {
   const std::vector<double> times{0, 0.1, 1e-7};
   const std::vector<std::string> files{"frames/000000.vtp", "frames/000001.vtp", "frames/000002.vtp"};
-  const auto text = io::pvd(times, files);
+  const auto text = pvd(times, files);
   CHECK(text.find("<DataSet timestep=\"0.1\" part=\"0\" file=\"frames/000001.vtp\"/>") != text.npos);
   CHECK(text.find("<DataSet timestep=\"1e-07\" part=\"0\" file=\"frames/000002.vtp\"/>") != text.npos);
 }
