@@ -1,5 +1,4 @@
 """Frames as files of other programs, and measured as a run measures its own: test_frames.py CHUTE."""
-import csv
 import os
 import shutil
 import subprocess
@@ -7,26 +6,10 @@ import sys
 import tempfile
 import unittest
 
+from tiny_scene import LAWS, SIXTY, table
+
 chute = os.path.abspath(sys.argv[1])
-FLAT = """title = "discs"
-seed = 3
-[incline]
-angle = "20 deg"
-[bed]
-count = 20
-[grains]
-count = 60
-diameter = { mean = 1, std = 0.05 }
-start = { velocity = 2, spread = 1 }
-[contact.normal]
-law = "spring-dashpot"
-stiffness = 1e4
-restitution = 0.6
-[contact.tangential]
-law = "coulomb-viscous"
-viscosity = 40
-friction = 0.5
-[run]
+FLAT = 'title = "discs"\n' + SIXTY + LAWS + """[run]
 duration = 6
 [output]
 contacts = true
@@ -41,13 +24,6 @@ heights = { from = 1, every = 0.5 }
 SPACE = FLAT.replace("[incline]", "dimensions = 3\n[incline]").replace("duration = 6", "duration = 3") \
     .replace("[bed]\ncount = 20", '[bed]\nkind = "lattice"\ncount = 8\ncount_across = 8')
 MEASURED = ("profiles.csv", "fields.csv", "forces.csv", "moments.csv", "heights.csv")
-
-
-def table(path):
-    """Columns of a table of chute's, as texts."""
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.reader(line for line in file if not line.startswith("#")))
-    return {name: [row[k] for row in rows[1:]] for k, name in enumerate(rows[0])}
 
 
 class Frames(unittest.TestCase):

@@ -1,11 +1,13 @@
 """LAMMPS moves grains as the soft engine does: test_lammps.py CHUTE. Exit status 77 where the program lmp is missing."""
-import csv
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "app"))
+from tiny_scene import LAWS, SIXTY, table
 
 chute = os.path.abspath(sys.argv[1])
 THERE = bool(shutil.which("lmp"))
@@ -19,15 +21,7 @@ periodic = []
 kind = "none"
 [grains]
 start = { from = "two.vtk" }
-[contact.normal]
-law = "spring-dashpot"
-stiffness = 1e4
-restitution = 0.6
-[contact.tangential]
-law = "coulomb-viscous"
-viscosity = 20
-friction = 0.5
-[engine]
+""" + LAWS.replace("viscosity = 40", "viscosity = 20") + """[engine]
 integrator = "verlet"
 [run]
 duration = 0.2
@@ -37,17 +31,7 @@ frames = { every = 0.1 }
 series = { every = 0.1 }
 """
 # damping and viscosity with the reduced mass, as gran/hooke has them: the same to the last digits with any sizes
-FLOW = """title = "a flow"
-seed = 3
-[incline]
-angle = "20 deg"
-[bed]
-count = 20
-[grains]
-count = 60
-diameter = { mean = 1, std = 0.05 }
-start = { velocity = 2, spread = 1 }
-[contact.normal]
+FLOW = 'title = "a flow"\n' + SIXTY + """[contact.normal]
 law = "spring-dashpot"
 stiffness = 1e4
 damping = 50
@@ -96,12 +80,6 @@ def grains(file, rows):
 HEAD_ON = [((2, 2, 0), .5, (1, 0, 0), (0, 0, 0)), ((3.05, 2, 0), .5, (-1, 0, 0), (0, 0, 0))]
 OBLIQUE = [((2, 2, 0), .5, (1, .1, 0), (0, 0, .5)), ((3, 2.4, 0), .4, (-1, 0, 0), (0, 0, -2))]
 IN_SPACE = [((2, 2, 2), .5, (1, .1, .2), (.3, 1, .5)), ((3, 2.3, 2.1), .4, (-1, 0, .1), (0, .4, -2))]
-
-
-def table(path):
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return {name: [row[name] for row in rows] for name in rows[0]}
 
 
 class Lammps(unittest.TestCase):
