@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "plot/headings.hpp"
 #include "plot/legend.hpp"
 #include "plot/mathtext.hpp"
 
@@ -51,10 +52,7 @@ TableSheet table_sheet(const Figure& figure, const std::string& title,
                        ": plot.table: a table has the names of the x axis as its rows: plot.x.names");
     auto& group = sheet.groups.emplace_back();
     group.panel = panel.label;
-    if (!panel.label.empty()) group.heading = "(" + panel.label + ")";
-    for (const auto* part : {&panel.title, &panel.parameters})
-      if (!part->empty())
-        group.heading += (group.heading.empty() ? "" : part == &panel.title ? " " : ", ") + *part;
+    group.heading = heading(panel);
     for (const auto& name : panel.x.names)
       group.rows.push_back({name, std::vector<TableSheet::Cell>(sheet.series.size())});
     for (const auto& s : panel.series) {

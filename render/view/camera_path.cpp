@@ -1,7 +1,8 @@
 #include "view/camera_path.hpp"
 
-#include <algorithm>
+#include <boost/math/interpolators/cubic_hermite.hpp>
 #include <cmath>
+#include <utility>
 
 namespace chute::view {
 namespace {
@@ -21,12 +22,12 @@ double slope_at(const std::vector<double>& t, const std::vector<double>& y, std:
 double smooth_through(const std::vector<double>& t, const std::vector<double>& y, double at) {
   if (at <= t.front()) return y.front();
   if (at >= t.back()) return y.back();
-  const auto k = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), at) - t.begin()) - 1;
-  const double length = t[k + 1] - t[k], u = (at - t[k]) / length;
-  const double from = slope_at(t, y, k) * length, to = slope_at(t, y, k + 1) * length;
-  // Hermite's cubic
-  return (1 + 2 * u) * (1 - u) * (1 - u) * y[k] + u * (1 - u) * (1 - u) * from +
-         u * u * (3 - 2 * u) * y[k + 1] + u * u * (u - 1) * to;
+  // Boost's own pchip wants four points at least, and is not level at the ends.
+  std::vector<double> slopes;
+  for (std::size_t k = 0; k < t.size(); ++k) slopes.push_back(slope_at(t, y, k));
+  auto times = t, values = y;
+  return boost::math::interpolators::cubic_hermite(std::move(times), std::move(values),
+                                                   std::move(slopes))(at);
 }
 
 Camera camera_at(const FrameStyle& style, double time) {

@@ -7,12 +7,14 @@
 #include "common/error.hpp"
 
 namespace chute::view {
+namespace {
+struct Option {
+  bool given;
+  const char* name;
+};
+}  // namespace
 
 void check_options(const FrameStyle& style, const Survey& survey) {
-  struct Option {
-    bool given;
-    const char* name;
-  };
   const bool flat = survey.dimensions == 2;
   const Camera usual;
   const auto refuse = [](bool given, const char* option, const char* why) {
@@ -59,15 +61,13 @@ std::vector<std::string> idle_options(const FrameStyle& style, const Survey& sur
 }
 
 void check_map_options(const FrameStyle& style, bool plot) {
-  struct Option {
-    bool given;
-    const char* name;
-  };
   const Camera usual;
   const auto& c = style.camera;
   const bool camera = c.window || c.all || c.follow || c.azimuth != usual.azimuth ||
                       c.elevation != usual.elevation || c.zoom != usual.zoom;
   for (const Option& option : {Option{camera, "--camera"},
+                               Option{!style.camera_keys.empty(), "--camera-at"},
+                               Option{style.opacity < 1, "--opacity"},
                                Option{style.tilt, "--tilt"},
                                Option{style.up.has_value(), "--up"},
                                Option{style.arrows, "--arrows"},

@@ -72,6 +72,8 @@ class IdleOptions(Pictures):
         cells = self.write("cells.vti", CELLS)
         for words, says in ((["--arrows"], "--arrows does nothing here: these are maps of cells"),
                             (["--camera", "all"], "--camera does nothing here: these are maps of cells"),
+                            (["--camera-at", "1=30:20"], "--camera-at does nothing here: these are maps of cells"),
+                            (["--opacity", "0.5"], "--opacity does nothing here: these are maps of cells"),
                             (["--title", "x"], "--title does nothing here"),
                             (["--colormap", "batlow"], "--colormap batlow does nothing here: maps of cells have viridis or rdbu"),
                             (["--background", "transparent"], "maps of cells have white or dark ground")):
