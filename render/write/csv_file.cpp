@@ -11,9 +11,7 @@ namespace {
 using Kind = FrameField::Kind;
 
 std::string columns_of(const FrameField& field) {
-  std::string name = field.name;
-  for (char& c : name)
-    if (c == ',' || c == '"' || c == '\n' || c == '#') c = '_';
+  const auto name = without(field.name, ",\"#");
   if (field.components() == 1) return "," + name;
   constexpr std::array<const char*, 4> quaternion{"w", "x", "y", "z"}, vector{"x", "y", "z", ""};
   std::string names;

@@ -87,13 +87,18 @@ const FrameField* find_field(const std::vector<FrameField>& fields, std::string_
   return at == fields.end() ? nullptr : &*at;
 }
 
+std::string without(std::string text, std::string_view meaningful) {
+  for (char& c : text)
+    if (std::isspace(static_cast<unsigned char>(c)) || meaningful.find(c) != std::string_view::npos) c = '_';
+  return text;
+}
+
 std::string text_of(const FrameField& field, std::size_t grain, int component) {
   const double value = field.array->at(grain, component);
   if (field.kind != Kind::words) return fmt::format("{}", value);
   const auto which = static_cast<std::size_t>(value);
-  std::string word = which < field.array->words.size() ? field.array->words[which] : std::string("X");
-  for (char& c : word)
-    if (std::isspace(static_cast<unsigned char>(c)) || c == ',' || c == '"') c = '_';
+  const auto word =
+      without(which < field.array->words.size() ? field.array->words[which] : std::string("X"), ",\"");
   return word.empty() ? "X" : word;
 }
 

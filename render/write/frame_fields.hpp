@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "read/grain_frame.hpp"
@@ -22,6 +23,9 @@ std::vector<FrameField> fields_of(const read::GrainFrame& frame);
 
 /// The field of that name, or null.
 const FrameField* find_field(const std::vector<FrameField>& fields, std::string_view name);
+
+/// The text with `_` for white space and for the characters that mean something where it goes.
+std::string without(std::string text, std::string_view meaningful = {});
 
 /// The shortest text that reads back to the same number. A species is its word, without what would end a column.
 std::string text_of(const FrameField& field, std::size_t grain, int component);

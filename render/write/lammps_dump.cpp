@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "common/fields.hpp"
@@ -48,9 +47,7 @@ std::string bounds_of(const Box& box) {
 
 /// The names of a field's columns.
 std::vector<std::string> columns_of(const FrameField& field) {
-  std::string name = field.name;
-  for (char& c : name)
-    if (std::isspace(static_cast<unsigned char>(c))) c = '_';
+  const auto name = without(field.name);
   if (field.kind == Kind::quaternion) return {"quatw", "quati", "quatj", "quatk"};
   if (field.kind == Kind::vector) {
     const std::string stem = name == fields::velocity.name           ? "v"

@@ -13,9 +13,7 @@ namespace {
 using Kind = FrameField::Kind;
 
 std::string property_of(const FrameField& field) {
-  std::string name = field.name;
-  for (char& c : name)
-    if (c == ' ' || c == ':' || c == '"' || c == '=') c = '_';
+  const auto name = without(field.name, ":\"=");
   const char type = field.kind == Kind::words ? 'S' : field.kind == Kind::whole ? 'I' : 'R';
   return fmt::format(":{}:{}:{}", name, type, field.components());
 }

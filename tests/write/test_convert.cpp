@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -210,6 +211,24 @@ TEST_CASE("Species that are words stay words, and another program's types do not
   const auto back = read_back(folder, "a.vtp", write::vtp_frame(frame, {}));
   CHECK_FALSE(back.is_fixed(0));
   CHECK(back.find("material")->values == std::vector<double>{0, 1});
+}
+
+TEST_CASE("Names of arrays that would end a line or a column do not") {
+  test::Folder folder;
+  auto frame = chute_frame(3);
+  frame.arrays.push_back({"hot\nand \"cold\"", 1, frame.radius});
+  frame.names.push_back(frame.arrays.back().name);
+  const std::vector<std::pair<const char*, std::string>> files{{"a.xyz", write::xyz_frame(frame, {})},
+                                                               {"a.dump", write::lammps_dump(frame, {})}};
+  for (const auto& [name, bytes] : files) {
+    const auto back = read_back(folder, name, bytes);
+    CAPTURE(name);
+    const auto found = std::ranges::find_if(
+        back.arrays, [](const auto& array) { return array.name.starts_with("hot_and_"); });
+    REQUIRE(found != back.arrays.end());
+    CHECK(found->values == frame.radius);
+  }
+  CHECK_THAT(write::csv_frame(frame, {}), Contains(",hot_and__cold_"));
 }
 
 TEST_CASE("A folder of frames is read frame by frame, and none is mixed with others") {
