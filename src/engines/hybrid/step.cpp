@@ -130,10 +130,7 @@ double Step<D>::contact(const Partners& p) const {
   const double from = std::max(a.time, b.time), left = length_ - from;  // of a fixed grain it stays 0
   const Relative now = relative(p, from);
   const double reach = a.radius + b.radius, closing = dot(now.way, now.velocity);
-  if (p.presses) {
-    const double off = settled * given_ * reach;
-    return closing < -off || (closing > off && p.pressed > 0) ? from : never;
-  }
+  if (p.presses) return unsettled(p, closing) ? from : never;
   const double gap = dot(now.way, now.way) - reach * reach;
   if (gap <= 0) return closing < -negligible_ * reach ? from : never;
   // Nearly all looks end here: the square of the distance falls within a time T by at most 2 T |d·v| + T² |d·a|, the
@@ -148,6 +145,13 @@ double Step<D>::contact(const Partners& p) const {
     return never;
   const double s = from + hard::first_contact(hard::Approach<D>{now.way, now.velocity, -1 * gravity_, reach});
   return s <= length_ ? s : never;
+}
+
+/// Whether two that rest on each other still approach, or part though they press.
+template <int D>
+bool Step<D>::unsettled(const Partners& p, double closing) const {
+  const double off = settled * given_ * (bodies_[p.i].radius + bodies_[p.j].radius);
+  return closing < -off || (closing > off && p.pressed > 0);
 }
 
 template <int D>
@@ -182,10 +186,43 @@ void Step<D>::do_events() {
   }
 }
 
-/// Looks again, and lets who meets collide at once: a pair later in the sweep sees what those before it did.
+/// Looks again at all partners of those who have moved since their last turn, and lets who meets collide at once: a pair
+/// later in the sweep sees what those before it did. False if nobody had moved.
 template <int D>
-void Step<D>::sweep() {
-  for (const auto k : to_check_) meet(partners_[k], contact(partners_[k]));
+bool Step<D>::sweep() {
+  if (movers_.empty()) return false;
+  std::swap(moved_, moved_before_);
+  std::swap(movers_, movers_before_);
+  movers_.clear();
+  // Where many have moved, looking through all is faster than sorting.
+  if (4 * movers_before_.size() > grains_.moving) {
+    for (auto& p : partners_)
+      if (moved_before_[p.i] | moved_before_[p.j]) look_again(p);
+  } else {
+    list_to_check();
+    for (const auto k : to_check_) look_again(partners_[k]);
+  }
+  for (const auto i : movers_before_) moved_before_[i] = 0;
+  return true;
+}
+
+template <int D>
+void Step<D>::look_again(Partners& p) {
+  if (!p.presses) return meet(p, contact(p));
+  const double s = std::max(bodies_[p.i].time, bodies_[p.j].time);
+  const Relative now = relative(p, s);
+  const double closing = dot(now.way, now.velocity);
+  if (!unsettled(p, closing)) return;
+  if (spent(p)) {
+    ++outcome_.put_off;
+    return;
+  }
+  const double distance = norm(now.way);
+  if (-closing < resting * given_ * distance)
+    press(p, s, now, distance);
+  else if (!collide(p, s))
+    return;
+  note_moved(p);
 }
 
 /// Lets two collide if they do meet and the bounds allow it.
@@ -196,30 +233,26 @@ void Step<D>::meet(Partners& p, double s) {
     ++outcome_.put_off;
     return;
   }
-  if (!collide(p, s)) return;
+  if (collide(p, s)) note_moved(p);
+}
+
+template <int D>
+void Step<D>::note_moved(const Partners& p) {
   for (const auto g : {p.i, p.j})
     if (moves(g) && !moved_[g]) moved_[g] = 1, movers_.push_back(g);
 }
 
-/// All partners of those who have moved.
+/// All partners of those who have moved, each once.
 template <int D>
 void Step<D>::list_to_check() {
   to_check_.clear();
-  const bool most = 4 * movers_.size() > grains_.moving;  // then looking through all is faster than sorting
-  if (most) {
-    for (std::uint32_t p = 0; p < partners_.size(); ++p)
-      if (moved_[partners_[p].i] || (moves(partners_[p].j) && moved_[partners_[p].j])) to_check_.push_back(p);
-  } else {
-    for (const auto i : movers_)
-      for (auto k = first_[i]; k < first_[i + 1]; ++k) {
-        const auto& p = partners_[of_[k]];
-        const auto other = p.i == i ? p.j : p.i;
-        if (i < other || !moves(other) || !moved_[other]) to_check_.push_back(of_[k]);
-      }
-    std::sort(to_check_.begin(), to_check_.end());
-  }
-  for (const auto i : movers_) moved_[i] = 0;
-  movers_.clear();
+  for (const auto i : movers_before_)
+    for (auto k = first_[i]; k < first_[i + 1]; ++k) {
+      const auto& p = partners_[of_[k]];
+      const auto other = p.i == i ? p.j : p.i;
+      if (i < other || !moved_before_[other]) to_check_.push_back(of_[k]);
+    }
+  std::sort(to_check_.begin(), to_check_.end());
 }
 
 template <int D>
@@ -234,13 +267,16 @@ const typename Step<D>::Outcome& Step<D>::collide(std::vector<hard::Flight<D>>& 
   given_ = norm(setup_.gravity) * length_, negligible_ = rounding * given_;
   take_off();
   list_partners(pairs);
-  moved_.assign(grains_.moving, 0);
+  moved_.assign(grains_.size() + setup_.walls.size(), 0);
+  moved_before_.assign(moved_.size(), 0);
+  movers_.clear();
   lean();
   to_check_.resize(partners_.size());
   std::iota(to_check_.begin(), to_check_.end(), 0);
   find_events(team);
   do_events();
-  for (list_to_check(); !to_check_.empty(); list_to_check()) sweep();
+  while (sweep()) {
+  }
   remember();
   arrive();
   outcome_.order.resize(outcome_.hits.size());
@@ -266,10 +302,7 @@ void Step<D>::lean() {
     const Relative before = relative(p, 0);
     const double distance = norm(before.way);
     if (distance > bodies_[p.i].radius + bodies_[p.j].radius) continue;
-    const auto& a = bodies_[p.i];
-    const auto& b = bodies_[p.j];
-    laws::Collider<D> i{a.velocity, a.spin, a.radius, a.inverse_mass, a.inverse_inertia};
-    laws::Collider<D> j{i.velocity + before.velocity, b.spin, b.radius, b.inverse_mass, b.inverse_inertia};
+    auto [i, j] = colliders(p, before);
     const Vec<D> n = (1 / distance) * before.way;
     press_to(p, 0, before, {n, laws::surface_slip(n, i, j), dot(before.velocity, n)}, last.normal,
              last.shear - dot(last.shear, n) * n, i, j);
@@ -308,7 +341,8 @@ bool Step<D>::collide(Partners& p, double s) {
   const Vec<D> n = (1 / norm(before.way)) * before.way, surface = j.velocity;
   const double v_n = dot(before.velocity, n);
   const bool rests = -v_n < resting * given_;
-  if (rests && !is_wall(p.j) && (p.presses || v_n < -negligible_)) return press(p, s, before, n, i, j), true;
+  if (rests && !is_wall(p.j) && (p.presses || v_n < -negligible_))
+    return press(p, s, before, norm(before.way)), true;
   if (!(v_n < -negligible_)) return false;
   p.presses = false;
   if (rests) law.beta = 0;
@@ -320,17 +354,29 @@ bool Step<D>::collide(Partners& p, double s) {
   return true;
 }
 
+/// Two grains as a law of collisions sees them, from the first: it acts on how they move against each other alone.
+template <int D>
+std::pair<laws::Collider<D>, laws::Collider<D>> Step<D>::colliders(const Partners& p,
+                                                                   const Relative& before) const {
+  const auto &a = bodies_[p.i], &b = bodies_[p.j];
+  return {{{}, a.spin, a.radius, a.inverse_mass, a.inverse_inertia},
+          {before.velocity, b.spin, b.radius, b.inverse_mass, b.inverse_inertia}};
+}
+
 /// One turn of two that rest on each other: what takes away their approach and their slip, as far as the sum of all turns
 /// of the step may.
 template <int D>
-void Step<D>::press(Partners& p, double s, const Relative& before, const Vec<D>& n, laws::Collider<D>& i,
-                    laws::Collider<D>& j) {
+void Step<D>::press(Partners& p, double s, const Relative& before, double distance) {
+  auto [i, j] = colliders(p, before);
+  if (p.normal_mass == 0)
+    p.normal_mass = 1 / (i.inverse_mass + j.inverse_mass), p.shear_mass = laws::slip_mass(i, j);
+  const Vec<D> n = (1 / distance) * before.way;
   const double v_n = dot(before.velocity, n);
   const Vec<D> slip = laws::surface_slip(n, i, j);
-  const double pressed = std::max(0.0, p.pressed - over_relaxation * v_n / (i.inverse_mass + j.inverse_mass));
-  Vec<D> sheared = p.sheared - laws::slip_mass(i, j) * slip;
-  const double shear = norm(sheared), most = setup_.contact.tangential.friction * pressed;
-  if (shear > most) sheared = (most / shear) * sheared;
+  const double pressed = std::max(0.0, p.pressed - over_relaxation * p.normal_mass * v_n);
+  Vec<D> sheared = p.sheared - p.shear_mass * slip;
+  const double shear2 = dot(sheared, sheared), most = setup_.contact.tangential.friction * pressed;
+  if (shear2 > most * most) sheared = (most / std::sqrt(shear2)) * sheared;
   ++outcome_.collisions;
   press_to(p, s, before, {n, slip, v_n}, pressed, sheared, i, j);
 }
@@ -355,7 +401,8 @@ template <int D>
 void Step<D>::pass(Partners& p, double s, const Relative& before, const Vec<D>& impulse,
                    const Vec<turns<D>>& spin_i, const Vec<turns<D>>& spin_j) {
   note(p, s, before, impulse);
-  const auto go_on = [&](std::size_t k, const Vec<D>& gets, const Vec<turns<D>>& spin) {
+  const auto go_on = [&](std::size_t k, const Vec<D>& gets, const Vec<turns<D>>& spin)
+      __attribute__((always_inline)) {
     auto& body = bodies_[k];
     auto& f = (*flights_)[k];
     if (s > body.time) f.orientation = turned<D>(f.orientation, body.spin, s - body.time);

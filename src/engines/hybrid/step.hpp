@@ -119,12 +119,13 @@ class Step {
   /// What two partners have in common: a pair of grains, or a grain and a wall.
   struct Partners {
     std::uint32_t i, j;
-    int collisions = 0;     ///< in this step
-    std::uint32_t hit = 0;  ///< which of the step's, if they collided
-    bool presses = false;   ///< they rest on each other in this step
-    double pressed = 0;     ///< normal impulse on j of that, ≥ 0
-    Vec<D> sheared{};       ///< tangential one
-    Vec<D> image{};         ///< what makes j − i the nearest image's way
+    int collisions = 0;                      ///< in this step
+    std::uint32_t hit = 0;                   ///< which of the step's, if they collided
+    bool presses = false;                    ///< they rest on each other in this step
+    double pressed = 0;                      ///< normal impulse on j of that, ≥ 0
+    Vec<D> sheared{};                        ///< tangential one
+    double normal_mass = 0, shear_mass = 0;  ///< that resist an approach and a slip; 0 until it presses
+    Vec<D> image{};                          ///< what makes j − i the nearest image's way
   };
   struct Event {
     double time;
@@ -150,11 +151,12 @@ class Step {
   double negligible_ = 0;  // an approach as slow as this is none
   std::vector<Body> bodies_;
   std::vector<Partners> partners_;
-  std::vector<std::uint32_t> first_, of_;  // partners of each moving grain: of_[first_[i]] …
-  std::vector<std::uint8_t> moved_;        // by moving grain: has it collided in this sweep?
-  std::vector<std::uint32_t> movers_;      // those
-  std::vector<std::uint32_t> to_check_;    // partners, in their order
-  std::vector<double> times_;              // when these meet
+  std::vector<std::uint32_t> first_, of_;              // partners of each moving grain: of_[first_[i]] …
+  std::vector<std::uint8_t> moved_;                    // by grain and wall: has it collided in this sweep?
+  std::vector<std::uint8_t> moved_before_;             // … in the one before
+  std::vector<std::uint32_t> movers_, movers_before_;  // those
+  std::vector<std::uint32_t> to_check_;                // partners, in their order
+  std::vector<double> times_;                          // when these meet
   std::vector<Event> events_;
   std::vector<Pressing<D>> pressings_;
   Outcome outcome_;
@@ -183,14 +185,18 @@ class Step {
   bool spent(const Partners& p) const;
   void find_events(Team& team);
   void do_events();
-  void sweep();
+  bool sweep();
+  [[gnu::always_inline]] inline void look_again(Partners& p);
+  [[gnu::always_inline]] inline bool unsettled(const Partners& p, double closing) const;
+  [[gnu::always_inline]] inline void note_moved(const Partners& p);
   void meet(Partners& p, double s);
   void list_to_check();
   bool collide(Partners& p, double s);
   void lean();
   void remember();
-  [[gnu::always_inline]] inline void press(Partners& p, double s, const Relative& before, const Vec<D>& n,
-                                           laws::Collider<D>& i, laws::Collider<D>& j);
+  [[gnu::always_inline]] inline std::pair<laws::Collider<D>, laws::Collider<D>> colliders(
+      const Partners& p, const Relative& before) const;
+  void press(Partners& p, double s, const Relative& before, double distance);
   [[gnu::always_inline]] inline void press_to(Partners& p, double s, const Relative& before,
                                               const Touch& touch, double pressed, const Vec<D>& sheared,
                                               laws::Collider<D>& i, laws::Collider<D>& j);
