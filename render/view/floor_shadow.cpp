@@ -52,9 +52,14 @@ FloorShadow::FloorShadow(const Floor& floor, const std::vector<Ball>& balls, con
     const double x = at.dot(u_) / cell_ + size_ / 2.0, y = at.dot(v_) / cell_ + size_ / 2.0,
                  r = ball.radius / cell_;
     const auto cell = [&](double c) { return std::clamp(static_cast<int>(std::floor(c)), 0, size_ - 1); };
-    for (int j = cell(y - r); j <= cell(y + r); ++j)
-      for (int i = cell(x - r); i <= cell(x + r); ++i)
-        if (std::hypot(i + 0.5 - x, j + 0.5 - y) < r) dark_[static_cast<std::size_t>(j * size_ + i)] = 1;
+    const int first = cell(x - r), last = cell(x + r);
+    for (int j = cell(y - r); j <= cell(y + r); ++j) {
+      const double dy = j + 0.5 - y, left = r * r - dy * dy;
+      for (int i = first; i <= last; ++i) {
+        const double dx = i + 0.5 - x;
+        if (dx * dx < left) dark_[static_cast<std::size_t>(j * size_ + i)] = 1;
+      }
+    }
   }
   const int half = std::max(1, static_cast<int>(std::lround(radius / cell_)));
   for (int pass = 0; pass < 2; ++pass) blur(dark_, size_, half, 1, size_), blur(dark_, size_, half, size_, 1);
