@@ -34,8 +34,6 @@ class EventQueue {
     if (heap_.empty()) return {never, 0};
     return {event(heap_.front()).time, index(heap_.front())};
   }
-  /// A grain that probably comes soon after: to have its numbers fetched.
-  std::size_t soon() const { return heap_.size() > 1 ? index(heap_[1]) : 0; }
 
  private:
   static constexpr std::int32_t none = -1;

@@ -38,8 +38,9 @@ class NearGrains {
   }
   /// By how many periods the other's flight must be moved to be seen from i's; mostly by none.
   bool is_shifted(std::size_t i, const Near& near) const {
-    return near.image != std::array<std::int8_t, D>{} ||
-           (lapped_[i] | lapped_[static_cast<std::size_t>(near.other)]);
+    int image = 0;  // in so many words: compilers call a function to compare these few bytes
+    for (const auto periods : near.image) image |= periods;
+    return (image | lapped_[i] | lapped_[static_cast<std::size_t>(near.other)]) != 0;
   }
   std::array<int, D> shift(std::size_t i, const Near& near) const {
     std::array<int, D> s;
