@@ -207,6 +207,31 @@ std::vector<KnownFigure> known_figures() {
   return known;
 }
 
+const std::vector<FigureGroup>& figure_groups() {
+  static const std::vector<FigureGroup> groups{
+      {"all", "every figure", {""}},
+      {"thesis", "those of the dissertation", {"fig-1-", "fig-2-", "fig-3-", "fig-4-", "fig-5-", "table-"}},
+      {"experiments", "those of its laboratory, fig-e-…", {"fig-e-"}},
+      {"methods", "those of its methods, fig-m-…", {"fig-m-"}},
+      {"beyond", "those of its outlook, fig-b-…", {"fig-b-"}}};
+  return groups;
+}
+
+std::vector<fs::path> find_recipes(const std::string& name) {
+  const auto& groups = figure_groups();
+  const auto group =
+      std::find_if(groups.begin(), groups.end(), [&](const FigureGroup& g) { return g.word == name; });
+  if (group == groups.end()) return {find_recipe(name)};
+  std::vector<fs::path> recipes;
+  for (const auto& figure : known_figures())
+    if (std::any_of(group->beginnings.begin(), group->beginnings.end(),
+                    [&](const char* beginning) { return figure.id.starts_with(beginning); }))
+      recipes.push_back(figure.recipe);
+  if (recipes.empty())
+    throw InputError(fmt::format("figure {}: none is in {}", name, scenes_folder().string()));
+  return recipes;
+}
+
 fs::path find_recipe(const std::string& name) {
   if (name == standard_input) return standard_input_name;
   if (name.ends_with(".toml")) return name;  // read_recipe says if it cannot be read
@@ -215,6 +240,7 @@ fs::path find_recipe(const std::string& name) {
     if (figure.id == name) return figure.recipe;
     ids.push_back(figure.id);
   }
+  for (const auto& group : figure_groups()) ids.push_back(group.word);
   const auto hint = nearest(name, ids);
   throw InputError(fmt::format("figure {}: not known{}; chute figure --list shows all", name,
                                hint.empty() ? "" : ", did you mean " + hint + "?"));

@@ -16,6 +16,15 @@ struct KnownFigure {
 /// All figure recipes that come with chute, ordered by id.
 std::vector<KnownFigure> known_figures();
 
+/// Words for many figures at once, and what they are.
+struct FigureGroup {
+  const char *word, *meaning;
+  std::vector<const char*> beginnings;  ///< of the ids that belong to it
+};
+const std::vector<FigureGroup>& figure_groups();
+/// The recipes of a group, of a figure that is known, or of a file.
+std::vector<std::filesystem::path> find_recipes(const std::string& name);
+
 /// The recipe of an id, or the file of that name; of `-` the name that stands for standard input. InputError, with the nearest id, if there is none.
 std::filesystem::path find_recipe(const std::string& name);
 

@@ -23,18 +23,17 @@ struct FigureArguments {
 void run(const FigureArguments& arguments) {
   if (arguments.list) {
     for (const auto& figure : known_figures()) fmt::print("{:<12} {}\n", figure.id, figure.title);
+    fmt::print("\ngroups:\n");
+    for (const auto& group : figure_groups()) fmt::print("{:<12} {}\n", group.word, group.meaning);
     return;
   }
   if (arguments.keys) return fmt::print("{}", figure_keys());
   if (arguments.figures.empty())
-    throw InputError("figure: name a figure, a recipe file, or all; --list shows them");
+    throw InputError("figure: name a figure, a recipe file, or a group such as all; --list shows them");
   std::vector<std::filesystem::path> recipes;
   for (const auto& name : arguments.figures) {
-    if (name != "all") {
-      recipes.push_back(find_recipe(name));
-      continue;
-    }
-    for (const auto& figure : known_figures()) recipes.push_back(figure.recipe);
+    const auto more = find_recipes(name);
+    recipes.insert(recipes.end(), more.begin(), more.end());
   }
   if (arguments.check) {
     figures::FigureContext context;
@@ -69,8 +68,10 @@ void add_figure(CLI::App& app) {
   auto* verb =
       app.add_subcommand("figure", "Make figures: simulate what they need, write PNG, PDF, SVG and CSV");
   auto a = std::make_shared<FigureArguments>();
-  verb->add_option("figures", a->figures,
-                   "ids such as fig-4-10, recipe files (TOML), all, or - for a recipe on standard input");
+  verb->add_option(
+      "figures", a->figures,
+      "ids such as fig-4-10, recipe files (TOML), groups (all, thesis, experiments, methods, beyond), "
+      "or - for a recipe on standard input");
   verb->add_option("-o,--output", a->directory, "folder for the results")->capture_default_str();
   verb->add_flag("--quick", a->quick, "a cheaper simulation: shorter, fewer points");
   verb->add_flag("--list", a->list, "list the figures that are known");

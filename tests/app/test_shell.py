@@ -50,6 +50,15 @@ class Shell(unittest.TestCase):
         self.assertEqual(self.read("file", "mine.csv"), self.read("pipe", "standard-input.csv"))
         self.assertGreater(len(self.read("pipe", "standard-input.svg")), 1000)
 
+    def test_words_for_groups_of_figures(self):
+        """Each figure belongs to one group besides all of them."""
+        checked = lambda word: {line.split(": ")[0] for line in self.run_chute("figure", word, "--quick", "--check").stdout.splitlines()}
+        groups = [checked(word) for word in ("thesis", "experiments", "methods", "beyond")]
+        self.assertEqual(len(groups[0]), 62)  # 57 from data, four sketches and a table
+        self.assertEqual(sum(map(len, groups)), len(set.union(*groups)))
+        self.assertEqual(set.union(*groups), checked("all"))
+        self.assertIn("did you mean thesis?", self.run_chute("figure", "thessis", status=2).stderr)
+
     def test_check_for_programs(self):
         self.write("tiny.toml", TINY)
         found = json.loads(self.run_chute("check", "--json", "tiny.toml", "-", given=TINY).stdout)
