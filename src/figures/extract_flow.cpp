@@ -152,7 +152,12 @@ double number_of_run(const std::string& what, const Curve& curve, const fs::path
     if (what == "acceleration") return slope_of(time, v_x);
     return estimate_of(std::span(v_x).subspan(v_x.size() / 2)).mean;
   }
-  const double number = number_at(scene_of(run), what);
+  const auto scene = scene_of(run);
+  constexpr std::string_view minus = " - ";
+  const auto split = what.find(minus);
+  const double number = split == std::string::npos ? number_at(scene, what)
+                                                   : number_at(scene, what.substr(0, split)) -
+                                                         number_at(scene, what.substr(split + minus.size()));
   if (std::isnan(number))
     throw InputError(fmt::format("{}: {} is neither a number that figures know of runs, nor one of its scene",
                                  run.string(), what));

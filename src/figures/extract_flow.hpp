@@ -28,7 +28,7 @@ namespace chute::figures {
 ///   `speed`       mean v_x over the series' second half,
 ///   `seconds`     of the clock that a unit of time took,
 ///   `tan_theta`   of the incline;
-/// or else the number at a key of its scene, such as `grains.count` or `wall[2].from[0]`. NaN where the run does not tell.
+/// or else the number at a key of its scene, such as `grains.count`, or the difference of two, `wall[2].from[0] - wall[1].to[0]`. NaN where the run does not tell.
 double number_of_run(const std::string& what, const Curve& curve, const std::filesystem::path& run);
 
 /// One point: `column` against `against`, each the mean over the runs, with the error over them.
