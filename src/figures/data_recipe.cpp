@@ -8,10 +8,10 @@ namespace chute::figures {
 namespace {
 using namespace std::string_view_literals;
 constexpr std::array extract_words{
-    "histogram"sv, "return-map"sv, "scatter"sv,        "peak"sv,   "profile"sv, "series"sv,
-    "last"sv,      "pressure"sv,   "value"sv,          "mean"sv,   "line"sv,    "map"sv,
-    "spectrum"sv,  "avalanches"sv, "mean-avalanche"sv, "table"sv,  "cooling"sv, "rate"sv,
-    "record"sv,    "network"sv,    "depth"sv,          "janssen"sv};
+    "histogram"sv, "return-map"sv, "scatter"sv,        "peak"sv,    "profile"sv, "series"sv,
+    "last"sv,      "pressure"sv,   "value"sv,          "mean"sv,    "line"sv,    "map"sv,
+    "spectrum"sv,  "avalanches"sv, "mean-avalanche"sv, "table"sv,   "cooling"sv, "rate"sv,
+    "record"sv,    "network"sv,    "depth"sv,          "janssen"sv, "state"sv,   "history"sv};
 
 bool is_point_by_point(Extract extract) {
   return extract == Extract::peak || extract == Extract::last || extract == Extract::pressure ||
@@ -51,7 +51,15 @@ static void describe(Archive& a, Curve& curve) {
     a.check(!curve.collapse || curve.collapse->size() == 2, "collapse", "must be [tau, D]");
   }
   const bool scatter = curve.extract == Extract::scatter, histogram = curve.extract == Extract::histogram;
-  if (all || scatter || table) a.required("against", curve.against, "scatter, table: the column for x");
+  const bool state = curve.extract == Extract::state;
+  if (all || scatter || table || state)
+    a.required("against", curve.against, "scatter, table: the column for x; state: the number for x");
+  if (all || state) {
+    a.value("bulk", curve.bulk, "state: which part of the flow its bulk is, in heights of the flow");
+    a.check(
+        curve.bulk.size() == 2 && 0 <= curve.bulk[0] && curve.bulk[0] < curve.bulk[1] && curve.bulk[1] <= 1,
+        "bulk", "must be [low, high] with 0 <= low < high <= 1");
+  }
   if (all || scatter) a.value("absolute_x", curve.absolute_x, "scatter: the absolute value of `against`");
   if (all || histogram || scatter)
     a.value("file", curve.file,
@@ -60,12 +68,11 @@ static void describe(Archive& a, Curve& curve) {
     a.required("file", curve.file);
   if (all || histogram || scatter || mean) a.sections("where", curve.where);
   const bool rate = curve.extract == Extract::rate || curve.extract == Extract::record;
-  if (all || histogram || value || rate || curve.extract == Extract::network)
-    a.value("scale", curve.scale, "histogram: x times this; value, mean, rate, record, network: y");
-  if (all || value || rate) {
+  if (all || histogram || value || rate || state || curve.extract == Extract::network)
+    a.value("scale", curve.scale, "histogram: x times this; value, mean, rate, record, network, state: y");
+  if (all || value || rate)
     a.value("x_power", curve.x_power, at_least(0), "x is the varied value to this power");
-    a.value("x_scale", curve.x_scale, positive, "times this");
-  }
+  if (all || value || rate || state) a.value("x_scale", curve.x_scale, positive, "times this");
   if (all || curve.extract == Extract::cooling) {
     a.required("packing", curve.packing, between(1e-6, 0.9), "cooling: φ");
     a.required("restitution", curve.restitution, between(0, 1), "cooling: e_n");
@@ -95,11 +102,16 @@ static void describe(Archive& a, Curve& curve) {
     a.value("widest", curve.widest, positive, "peak: a wider cluster is no peak; default any");
   }
   if (all || is_point_by_point(curve.extract)) {
-    a.required("vary", curve.vary,
-               "peak, last, pressure, value, mean, rate, record: the key along the curve");
+    a.required(
+        "vary", curve.vary,
+        "peak, last, pressure, value, mean, rate, record: the key along the curve; state: may be left out");
     a.required("values", curve.values, "what it is, point by point");
     a.check(!curve.values.empty(), "values", "must hold at least one value");
     a.value("quick_count", curve.quick_count, at_least(2), "so many of them are enough for a quick figure");
+  } else if (state) {  // may be, or else each point is a curve of its own
+    a.value("vary", curve.vary);
+    if (curve.vary) a.required("values", curve.values);
+    if (curve.vary) a.value("quick_count", curve.quick_count, at_least(2));
   }
   a.check(curve.series.find_first_of(",\"\n") == std::string::npos, "series",
           "must not hold commas, quotes or line breaks");

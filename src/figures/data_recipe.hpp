@@ -39,7 +39,9 @@ enum class Extract {
   record,          ///< a number of run.json, against that
   network,         ///< contacts of the last frame
   depth,           ///< a column of profiles.csv against the depth below the surface
-  janssen          ///< Janssen's law fitted to that
+  janssen,         ///< Janssen's law fitted to that
+  state,           ///< a number that a run is known by against another (extract_flow.hpp)
+  history          ///< a column of history.csv against time, one series a height
 };
 
 /// Which rows count: those whose column lies in [low, high).
@@ -69,6 +71,7 @@ struct Curve {
          x_scale = 1;  ///< value, mean, rate, record: x is the value of `vary` to this power, times this
   bool times_velocity = false;  ///< histogram: and x times the run's mean velocity: a time becomes a way
   double packing = 0, restitution = 1;       ///< cooling: φ and e_n
+  std::vector<double> bulk{0.3, 0.7};        ///< state: from where to where, in heights of the flow
   double slope = 1;                          ///< line
   std::string against;                       ///< scatter, table: the column for x
   std::int64_t bins = 100;                   ///< histogram

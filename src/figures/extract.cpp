@@ -11,6 +11,7 @@
 #include "common/fields.hpp"
 #include "core/estimate.hpp"
 #include "figures/extract_fields.hpp"
+#include "figures/extract_flow.hpp"
 #include "figures/extract_hard.hpp"
 #include "figures/peaks.hpp"
 #include "read/table.hpp"
@@ -344,6 +345,10 @@ std::vector<FigureRow> extract(const Curve& curve, std::span<const fs::path> run
       return depth(curve, runs);
     case Extract::janssen:
       return janssen(curve, runs);
+    case Extract::state:
+      return state(curve, runs);
+    case Extract::history:
+      return history(curve, runs);
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include "measure/avalanches.hpp"
 #include "measure/ball_outputs.hpp"
 #include "measure/cells.hpp"
+#include "measure/flow_outputs.hpp"
 #include "measure/force_distribution.hpp"
 #include "measure/moments.hpp"
 #include "measure/outputs.hpp"
@@ -19,6 +20,8 @@ Catalogue<Output>& list() {
       kind_of<Output, AvalanchesOutput>(), kind_of<Output, CellsOutput>(),
       kind_of<Output, ForcesOutput>(),     kind_of<Output, MomentsOutput>(),
       kind_of<Output, StartingOutput>(),   kind_of<Output, HeightsOutput>(),
+      kind_of<Output, AcrossOutput>(),     kind_of<Output, HistoryOutput>(),
+      kind_of<Output, DischargeOutput>(),
   };
   return all;
 }

@@ -100,6 +100,7 @@ struct Needs {
   bool contacts = false, impacts = false, avalanches = false;
   bool plane_of_beads = false;  ///< a bed of beads in 3D that repeats along and across
   bool closed_box = false;      ///< a domain that repeats in all directions
+  bool space = false;           ///< three dimensions
 };
 
 /// What is long, fast and slow in a scene: defaults of outputs follow from it.

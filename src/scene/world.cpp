@@ -310,6 +310,8 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
     if (needs.plane_of_beads && !(scene.dimensions == 3 && ground.beads.size() >= 3 && repeats(2)))
       return Refusal{"output." + output.word(),
                      "tells of planes of beads that repeat along and across (dimensions = 3)"};
+    if (needs.space && scene.dimensions != 3)
+      return Refusal{"output." + output.word(), "is of flows in space (dimensions = 3)"};
     if (needs.closed_box && !repeats(scene.dimensions))
       return Refusal{"output." + output.word(), "needs a domain that repeats in all directions"};
   }

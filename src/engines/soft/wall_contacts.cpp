@@ -23,6 +23,14 @@ typename WallContacts<D>::Touch WallContacts<D>::touch(std::size_t wall, const V
   return {nearest, walls_[wall].surface_velocity(nearest, time)};
 }
 
+/// A flat wall with edges is no nearer than the plane that it lies in, which is found much faster. With some room for rounding,
+/// so that contacts are the same as without this.
+template <int D>
+bool WallContacts<D>::is_far(const Wall<D>& wall, const Vec<D>& place, double R, double time) const {
+  constexpr double room = 1 + 1e-9;
+  return wall.bounded() && std::abs(dot(wall.way_to(place, time, domain_), wall.normal)) > room * R;
+}
+
 template <int D>
 void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest, Group& group) const {
   Contacts<D>& contacts = group.contacts;
@@ -31,8 +39,10 @@ void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest,
   for (std::size_t i = 0; i < grains.moving; ++i) {
     const Vec<D> place = grains.place(i);
     for (const std::size_t w : group.walls) {
+      const double R = grains.radius[i];
+      if (is_far(walls_[w], place, R, time)) continue;
       const auto nearest = walls_[w].nearest(place, time, domain_);
-      const double R = grains.radius[i], overlap = R - nearest.height;
+      const double overlap = R - nearest.height;
       if (!(overlap > 0)) continue;
       contacts.reserve(contacts.count + 1);
       const std::size_t c = contacts.count++;

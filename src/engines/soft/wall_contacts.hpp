@@ -74,6 +74,7 @@ class WallContacts {
   std::vector<Group> groups_;
   double work_ = 0;
 
+  bool is_far(const Wall<D>& wall, const Vec<D>& place, double R, double time) const;
   void find(const Grains<D>& grains, double time, double deepest, Group& group) const;
   double power(const Grains<D>& grains, double time, const Contacts<D>& contacts) const;
 };

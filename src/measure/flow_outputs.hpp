@@ -1,0 +1,76 @@
+#pragma once
+#include "measure/outputs.hpp"
+
+/// What a scene can ask for about flows between walls, flows that change, and grains that run out: averages across a
+/// channel, over the height as time goes on, and the number beyond a plane.
+namespace chute::measure {
+
+struct AcrossSpec {
+  From from = 0;
+  double bin = 0, above = 0;
+  std::optional<double> every;
+};
+template <class Archive>
+void describe(Archive& a, AcrossSpec& spec) {
+  a.number_or_word("from", spec.from, "steady", non_negative,
+                   "averages begin; \"steady\": when the flow settled");
+  a.value("bin", spec.bin, non_negative, "width of a strip along the flow; default a bead's diameter");
+  a.value("above", spec.above, "only grains above this height count");
+  a.value("every", spec.every, positive, "time between samples; default 0.02 √(d/g)");
+}
+/// [output.across]: of flows in space.
+class AcrossOutput final : public TableOutput<AcrossOutput, AcrossSpec> {
+ public:
+  static constexpr std::string_view word = "across",
+                                    text = "averages over strips along the flow, across a channel (3D)";
+  Needs needs() const override { return {.space = true}; }
+  void fill(const Scales& scales) override;
+  std::vector<std::string> files() const override { return {"across.csv"}; }
+  std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
+};
+
+struct HistorySpec {
+  double every = 0, from = 0, bin = 0;
+  std::int64_t samples = 1;
+};
+template <class Archive>
+void describe(Archive& a, HistorySpec& spec) {
+  a.required("every", spec.every, positive, "time from one profile to the next");
+  a.value("from", spec.from, non_negative, "time of the first");
+  a.value("bin", spec.bin, non_negative, "height of a layer; default a bead's diameter");
+  a.value("samples", spec.samples, at_least(1), "looks that a profile averages over, in the time before it");
+}
+/// [output.history]
+class HistoryOutput final : public TableOutput<HistoryOutput, HistorySpec> {
+ public:
+  static constexpr std::string_view word = "history",
+                                    text = "profiles over the height one after the other, as a flow changes";
+  void fill(const Scales& scales) override {
+    if (spec && spec->bin == 0) spec->bin = scales.length;
+  }
+  double rhythm() const override {
+    return spec ? spec->every / static_cast<double>(spec->samples) : std::numeric_limits<double>::infinity();
+  }
+  std::vector<std::string> files() const override { return {"history.csv"}; }
+  std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
+};
+
+struct DischargeSpec {
+  double every = 0, below = 0;
+};
+template <class Archive>
+void describe(Archive& a, DischargeSpec& spec) {
+  a.required("every", spec.every, positive, "time between looks");
+  a.value("below", spec.below, "height of the opening: grains whose centre lies lower have run out");
+}
+/// [output.discharge]
+class DischargeOutput final : public TableOutput<DischargeOutput, DischargeSpec> {
+ public:
+  static constexpr std::string_view word = "discharge",
+                                    text = "how many grains have run out through an opening, in time";
+  double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
+  std::vector<std::string> files() const override { return {"discharge.csv"}; }
+  std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
+};
+
+}  // namespace chute::measure
