@@ -89,6 +89,13 @@ class Contacts {
     return ends_of(*pair[0], *pair[1], *grains);
   }
 
+  /// An option that names a column which is not there is a slip, also of a frame without contacts, whose columns are there.
+  void check_names() const {
+    if (columns_.empty()) return;
+    for (const auto& name : meanings_.force) named(name, "--force");
+    for (const auto& name : meanings_.ends) named(name, "--ends");
+  }
+
   [[noreturn]] void fail(const std::string& what) const { throw InputError(path_.string() + ": " + what); }
 
  private:
@@ -164,6 +171,7 @@ class Contacts {
 
 std::vector<ForceLink> links_of(const Contacts& contacts, const GrainFrame* grains) {
   std::vector<ForceLink> links;
+  contacts.check_names();
   if (contacts.size() == 0) return links;
   const auto forces = contacts.forces();
   const auto ends = contacts.ends(grains);
@@ -183,8 +191,11 @@ std::vector<ForceLink> links_of_lines(PointSet points, const std::filesystem::pa
   std::vector<PointSet::Cell> lines;
   for (auto& cell : points.cells)
     if (cell.corners.size() == 2) lines.push_back(std::move(cell));
-  if (lines.empty()) return links;
   const Contacts contacts(path, std::move(points.cell_arrays), points.cells_in_all, meanings);
+  if (!meanings.ends.empty())
+    contacts.fail("--ends is of contacts that are rows of a table; these are lines, which have their ends");
+  contacts.check_names();
+  if (lines.empty()) return links;
   const auto forces = contacts.forces();
   for (const auto& cell : lines) {
     const auto place = [&](std::size_t i) -> Vector3d { return {points.x[i], points.y[i], points.z[i]}; };

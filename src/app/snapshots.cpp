@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
@@ -59,12 +60,18 @@ std::vector<std::uint8_t> fixed_of(const read::GrainFrame& frame, const std::vec
   if (!type || type->components != 1)
     throw InputError(fmt::format("{}: no array type, so that --bed says nothing; arrays: {}",
                                  frame.file.string(), fmt::join(frame.names, ", ")));
+  std::set<std::string> types;
   for (std::size_t i = 0; i < frame.size(); ++i) {
     const double value = type->at(i);
     const auto text =
         type->words.empty() ? fmt::format("{}", value) : type->words[static_cast<std::size_t>(value)];
     fixed[i] |= std::find(bed.begin(), bed.end(), text) != bed.end();
+    types.insert(text);
   }
+  for (const auto& name : bed)
+    if (!types.empty() && !types.contains(name))
+      throw InputError(fmt::format("{}: no grain is of type {}, which --bed names; there are: {}",
+                                   frame.file.string(), name, fmt::join(types, ", ")));
   return fixed;
 }
 

@@ -29,7 +29,8 @@ namespace {
 struct RenderArguments {
   std::string run, output, movie, color, range, map, size, frames, camera, background = "white", series, up;
   std::string title, time;
-  double time_scale = 1, font_size = 0, opacity = 1, copy_reach = 0.16, dpi = 0;
+  double time_scale = 1, font_size = 0, opacity = 1, copy_reach = 0.16;
+  std::optional<double> dpi;
   std::string format = "png";
   std::vector<std::string> camera_at;
   FileMeanings meanings;
@@ -141,7 +142,7 @@ view::RenderJob job_of(const RenderArguments& a) {
   view::RenderJob job;
   job.source = a.run;
   auto& style = job.style;
-  if (!a.size.empty()) std::tie(style.width, style.height) = read_size(a.size, a.dpi);
+  if (!a.size.empty()) std::tie(style.width, style.height) = read_size(a.size, a.dpi.value_or(0));
   style.color = a.color, style.map = a.map;
   if (!a.range.empty()) {
     const auto values = numbers("--range", a.range, ':', "LOW:HIGH");
@@ -163,7 +164,8 @@ view::RenderJob job_of(const RenderArguments& a) {
   style.occlusion = a.occlusion, style.spin = !a.no_spin, style.furniture = !a.bare, style.trail = a.trails;
   job.movie = a.movie, job.output = a.output;
   job.format = static_cast<view::StillFormat>(choice("--format", a.format, {"png", "pdf", "svg"}));
-  job.dpi = a.dpi;
+  if (a.dpi == 0.0) throw InputError("0 dpi: must be in [10, 10000]");  // to a job that means none is told
+  job.dpi = a.dpi.value_or(0);
   job.frames_per_second = a.fps, job.jobs = a.jobs;
   job.meanings = a.meanings.read();
   auto& meanings = job.meanings;

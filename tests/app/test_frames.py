@@ -91,6 +91,12 @@ class Frames(unittest.TestCase):
                     there = self.call("info", os.path.join(run, name % k)).stdout.splitlines()
                     self.assertEqual([line for line in found if "cells" in line], [line for line in there if "cells" in line])
 
+    def test_a_bed_that_no_grain_is_of(self):
+        dumps = self.new()
+        self.call("convert", "flat", "--to", "lammps-dump", "-o", dumps)
+        said = self.call("measure", dumps, "-o", self.new(), "--bed", "0,nope", status=2).stderr
+        self.assertIn("no grain is of type nope, which --bed names; there are: 0, 1", said)
+
     def test_files_are_taken_in_the_order_of_their_times(self):
         dumps, out, back = self.new(), None, None
         self.call("convert", "flat", "--to", "lammps-dump", "-o", dumps)

@@ -180,16 +180,19 @@ class Render(Pictures):
         os.mkdir(self.path("run"))
         shutil.copy(os.path.join(sources, "golden", "data", "frame-discs.vtp"), self.path("run", "0.vtp"))
         self.write("c.csv", "a,b,push\n1,2,3\n")
+        self.write("empty.csv", "a,b,push\n")
         render = ["render", self.path("run"), "-o", self.path("out"), "--quiet"]
         for words, told in ((["--camera-at", "foo"], "expected TIME="), (["--camera-at", "1=follow"], "expected TIME="),
                             (["--camera-at", "1=10:20"], "does nothing here: these grains lie in a plane"),
                             (["--camera-at", "1=0:1:0:1", "--camera-at", "1=0:2:0:2"], "a time of its own"),
                             (["--opacity", "2"], "--opacity"), (["--format", "bmp"], "png, pdf, svg"),
-                            (["--size", "86x60mm"], "with --dpi in mm"), (["--dpi", "1"], "1 dpi"),
+                            (["--size", "86x60mm"], "with --dpi in mm"), (["--dpi", "1"], "1 dpi"), (["--dpi", "0"], "0 dpi"),
                             (["--copies-reach", "0"], "copies 0 periods far"),
                             (["--contacts", self.path("nowhere")], "nowhere: no such file"),
                             (["--contacts", self.path("c.csv")], "--force names one; there are: a, b, push"),
                             (["--contacts", self.path("c.csv"), "--ends", "a"], "the two columns of ids"),
+                            (["--contacts", self.path("empty.csv"), "--force", "pull"], 'no array "pull"; there are: a, b, push'),
+                            (["--contacts", self.path("empty.csv"), "--force", "push", "--ends", "a,c"], 'no array "c"'),
                             (["--force", "push"], "of --contacts"), (["--color", "chains"], "--contacts names")):
             said = self.call(*render, *words, status=WRONG).stderr
             self.assertIn(told, said)
