@@ -10,15 +10,16 @@ namespace chute::measure {
 
 Catalogue<Output>& list() {
   static Catalogue<Output> all{
-      kind_of<Output, FramesOutput>(),     kind_of<Output, SeriesOutput>(),
-      kind_of<Output, ProfilesOutput>(),   kind_of<Output, FieldsOutput>(),
-      kind_of<Output, ImpactsOutput>(),    kind_of<Output, ImpactHistogramsOutput>(),
-      kind_of<Output, PairsOutput>(),      kind_of<Output, VelocitiesOutput>(),
-      kind_of<Output, DiffusionOutput>(),  kind_of<Output, BeadsOutput>(),
-      kind_of<Output, TrappingOutput>(),   kind_of<Output, BedOutput>(),
-      kind_of<Output, AvalanchesOutput>(), kind_of<Output, CellsOutput>(),
-      kind_of<Output, ForcesOutput>(),     kind_of<Output, MomentsOutput>(),
-      kind_of<Output, StartingOutput>(),   kind_of<Output, HeightsOutput>(),
+      kind_of<Output, FramesOutput>(),      kind_of<Output, SeriesOutput>(),
+      kind_of<Output, ProfilesOutput>(),    kind_of<Output, FieldsOutput>(),
+      kind_of<Output, ImpactsOutput>(),     kind_of<Output, ImpactHistogramsOutput>(),
+      kind_of<Output, PairsOutput>(),       kind_of<Output, VelocitiesOutput>(),
+      kind_of<Output, DiffusionOutput>(),   kind_of<Output, BeadsOutput>(),
+      kind_of<Output, TrappingOutput>(),    kind_of<Output, BedOutput>(),
+      kind_of<Output, AvalanchesOutput>(),  kind_of<Output, CellsOutput>(),
+      kind_of<Output, ForcesOutput>(),      kind_of<Output, MomentsOutput>(),
+      kind_of<Output, StartingOutput>(),    kind_of<Output, HeightsOutput>(),
+      kind_of<Output, SegregationOutput>(),
   };
   return all;
 }

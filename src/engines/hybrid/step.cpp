@@ -289,11 +289,12 @@ bool Step<D>::collide(Partners& p, double s) {
   auto& a = bodies_[p.i];
   laws::Collider<D> i{a.velocity + s * gravity_, a.spin, a.radius, a.inverse_mass, a.inverse_inertia}, j;
   Relative before;
-  laws::Walton law = setup_.contact.tangential;
-  const laws::Restitution* restitution = &setup_.contact.restitution;
+  const auto& usual = hard::contact_between(setup_, grains_, p.i, p.j);
+  laws::Walton law = usual.tangential;
+  const laws::Restitution* restitution = &usual.restitution;
   laws::Restitution own;
   if (is_wall(p.j)) {
-    const auto contact = setup_.contact.with(wall_of(p.j).surface);
+    const auto contact = usual.with(wall_of(p.j).surface);
     law = contact.tangential, own = contact.restitution, restitution = &own;
     const Vec<D> place = a.place + s * (a.velocity + (0.5 * s) * gravity_);
     const auto touch = wall_of(p.j).nearest(place, begin_ + s, setup_.domain);
@@ -329,7 +330,8 @@ void Step<D>::press(Partners& p, double s, const Relative& before, const Vec<D>&
   const Vec<D> slip = laws::surface_slip(n, i, j);
   const double pressed = std::max(0.0, p.pressed - over_relaxation * v_n / (i.inverse_mass + j.inverse_mass));
   Vec<D> sheared = p.sheared - laws::slip_mass(i, j) * slip;
-  const double shear = norm(sheared), most = setup_.contact.tangential.friction * pressed;
+  const double shear = norm(sheared),
+               most = hard::contact_between(setup_, grains_, p.i, p.j).tangential.friction * pressed;
   if (shear > most) sheared = (most / shear) * sheared;
   ++outcome_.collisions;
   press_to(p, s, before, {n, slip, v_n}, pressed, sheared, i, j);

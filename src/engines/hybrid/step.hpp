@@ -14,6 +14,7 @@ namespace chute::hybrid {
 template <int D>
 struct HybridSetup : Surroundings<D> {
   hard::HardContact contact{};
+  ByPair<hard::HardContact> between{};  ///< by materials; empty: `contact` for all
   double time_step = 0;
   double diameter = 1;  ///< d: what lengths are measured by
   int collisions_per_pair = 8;
