@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "common/material_names.hpp"
 #include "common/toml_reader.hpp"
 #include "read/number.hpp"
 #include "read/points_file.hpp"
@@ -233,6 +235,17 @@ void leave_out_lost(GrainFrame& frame) {
   for (auto& array : frame.arrays) keep(array.values, static_cast<std::size_t>(array.components));
 }
 
+/// The names of chute's materials, grain by grain, as others have them in an array of species.
+void name_materials(GrainFrame& frame, std::string_view text) {
+  const auto* material = find_one(frame.arrays, fields::material.name);
+  if (!frame.own || !material || material->components != 1) return;
+  PointArray species{"species", 1, material->values, fields::names_in(text)};
+  for (double& value : species.values)
+    if (!(value >= 0 && value < static_cast<double>(species.words.size())))
+      value = std::numeric_limits<double>::quiet_NaN();
+  frame.arrays.push_back(std::move(species));
+}
+
 }  // namespace
 
 const PointArray* GrainFrame::find(std::string_view name) const {
@@ -290,6 +303,8 @@ GrainFrame parse_frame(std::vector<FileBytes> parts, const Meanings& meanings,
     return frame;
   }
   for (const Vector& vector : vectors) join_components(frame, vector);
+  for (const auto& [name, text] : points.field_texts)
+    if (name == fields::materials) name_materials(frame, text);
   take_meanings(frame, meanings);
   frame.radius = radii(frame, meanings);
   fill_vectors(frame);

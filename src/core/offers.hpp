@@ -19,6 +19,7 @@ struct Offers {
   bool wall_sticking = false;      ///< tangential restitution of a wall's own
   bool wall_temperatures = false;  ///< walls that heat
   bool static_friction = false;    ///< a friction at rest that is not that of sliding
+  bool materials = false;          ///< species with contact laws by pair
   bool tilting = false;            ///< an incline that is tilted meanwhile
   bool avalanches = false;         ///< what follows when a grain is added
   bool threads = false;

@@ -32,7 +32,8 @@ struct Nearest {
 struct WallSurface {
   std::optional<double> friction, static_friction, restitution, tangential_restitution;
   std::optional<double>
-      temperature;  ///< an energy: grains leave it as if they came from a gas of this temperature
+      temperature;   ///< an energy: grains leave it as if they came from a gas of this temperature
+  int material = 0;  ///< as the scene numbers them
 };
 
 /// How a wall moves: steadily, and to and fro along its normal, A sin 2πft.

@@ -1,6 +1,7 @@
 #include "io/vtk_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -18,6 +19,7 @@
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "common/material_names.hpp"
 #include "vtk/fill.hpp"
 
 namespace chute::io {
@@ -71,6 +73,8 @@ std::string grains_vtp(const GrainsView& grains, const RunFacts& facts, Packing 
   });
   add_numbers(data->GetFieldData(), fields::time_value, std::array{grains.time});
   add_facts(data, facts);
+  if (!facts.materials.empty())
+    add_text(data->GetFieldData(), fields::materials, fmt::format("{}", fmt::join(facts.materials, ",")));
   return bytes(data, packing);
 }
 

@@ -20,7 +20,8 @@ struct RunFacts {
   std::array<double, 6> domain{};  ///< x0 x1 y0 y1 z0 z1; equal ends where it is not periodic
   std::array<double, 3> gravity{};
   std::vector<WallFace> walls;
-  std::string clock = "time";  ///< what the time of files counts: "sweeps", "shakes" …
+  std::vector<std::string> materials;  ///< their names, where the scene gives them any
+  std::string clock = "time";          ///< what the time of files counts: "sweeps", "shakes" …
 };
 
 /// The facts of a world. Its walls are drawn where its grains and its domain are.

@@ -1,5 +1,8 @@
 #include "laws/contact_spec.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -57,9 +60,39 @@ static void describe_contact(Archive& a, ContactSpec& contact) {
               : "k_s/k_n is a number with a linear normal spring only; give the stiffness (N/m)");
 }
 
-void describe(TomlReader& a, ContactSpec& contact) { describe_contact(a, contact); }
-void describe(TomlWriter& a, ContactSpec& contact) { describe_contact(a, contact); }
-void describe(KeyLister& a, ContactSpec& contact) { describe_contact(a, contact); }
+/// What of [[contact.between]] does not go with the laws, or with itself.
+static void check_between(TomlReader& a, const ContactSpec& contact) {
+  for (std::size_t k = 0; k < contact.between.size(); ++k) {
+    const auto& own = contact.between[k];
+    const auto key = [&](const std::string& inside) { return fmt::format("between[{}].{}", k, inside); };
+    const auto same = [&](const ContactBetween& other) {
+      return std::is_permutation(other.materials.begin(), other.materials.end(), own.materials.begin(),
+                                 own.materials.end());
+    };
+    const auto end = contact.between.begin() + static_cast<std::ptrdiff_t>(k);
+    a.check(std::find_if(contact.between.begin(), end, same) == end, key("materials"),
+            "a pair that was named before: what is its own stands in one table");
+    ContactSpec with = contact;
+    auto numbers = own;  // what the short forms mean depends on the method
+    numbers.restitution.reset(), numbers.friction.reset();
+    const auto wrong = put_in(with, numbers);
+    a.check(!wrong, wrong ? key(wrong->key) : "", wrong ? wrong->message : "");
+  }
+}
+
+void describe(TomlReader& a, ContactSpec& contact) {
+  describe_contact(a, contact);
+  a.sections("between", contact.between);
+  check_between(a, contact);
+}
+void describe(TomlWriter& a, ContactSpec& contact) {
+  describe_contact(a, contact);
+  a.sections("between", contact.between);
+}
+void describe(KeyLister& a, ContactSpec& contact) {
+  describe_contact(a, contact);
+  a.sections("between", contact.between);
+}
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "common/keys.hpp"
 #include "core/fact.hpp"
+#include "laws/contact_between.hpp"
 #include "laws/list.hpp"
 
 namespace chute::laws {
@@ -13,9 +14,14 @@ struct ContactSpec {
   bool attraction = true;                       ///< false: the normal force is clipped at 0
   NormalKeys normal;                            ///< [contact.normal]
   ShearKeys tangential = RegularisedCoulomb{};  ///< [contact.tangential]
+  std::vector<ContactBetween> between{};  ///< [[contact.between]]: what is not the same for all materials
 
   /// The laws; `reference` is the pair that contact times and velocity-dependent restitutions are given for.
   ContactLaws laws(Pair reference) const { return make_contact(normal, tangential, {reference, attraction}); }
+  /// The same of one of several pairs of materials: their laws are of the same types, even where μ = 0.
+  ContactLaws laws_of_pair(Pair reference) const {
+    return make_contact(normal, tangential, {reference, attraction}, KeepLaw::yes);
+  }
   /// The impact velocity that contact times and restitutions are stated for; none where they do not depend on it.
   std::optional<double> at_velocity() const;
   /// A head-on impact of the pair, whose laws are made for `reference`, at that velocity, or at 1.

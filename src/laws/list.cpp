@@ -2,7 +2,8 @@
 
 namespace chute::laws {
 
-ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference) {
+ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference,
+                         KeepLaw keep) {
   ContactLaws contact;
   contact.attraction = reference.attraction;
   contact.normal = std::visit(
@@ -22,7 +23,8 @@ ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const
           return keys;
       },
       shear);
-  if (const double* mu = friction(contact.shear); mu && *mu == 0) contact.shear = Frictionless{};
+  if (const double* mu = friction(contact.shear); mu && *mu == 0 && keep == KeepLaw::no)
+    contact.shear = Frictionless{};
   return contact;
 }
 

@@ -144,7 +144,11 @@ inline bool set_restitution(NormalKeys& normal, double e_n) {
       normal);
 }
 
+/// Friction with μ = 0 is the law `frictionless`, which costs nothing, unless the law has to stay what it is.
+enum class KeepLaw { no, yes };
+
 /// The laws that a scene's keys come to.
-ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference);
+ContactLaws make_contact(const NormalKeys& normal, const ShearKeys& shear, const Reference& reference,
+                         KeepLaw keep = KeepLaw::no);
 
 }  // namespace chute::laws

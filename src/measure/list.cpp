@@ -21,7 +21,7 @@ Catalogue<Output>& list() {
       kind_of<Output, ForcesOutput>(),     kind_of<Output, MomentsOutput>(),
       kind_of<Output, StartingOutput>(),   kind_of<Output, HeightsOutput>(),
       kind_of<Output, AcrossOutput>(),     kind_of<Output, HistoryOutput>(),
-      kind_of<Output, DischargeOutput>(),
+      kind_of<Output, DischargeOutput>(),  kind_of<Output, SegregationOutput>(),
   };
   return all;
 }

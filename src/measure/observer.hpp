@@ -35,9 +35,10 @@ struct RunContext {
   Frame frame;
   Offers offers;
   double gravity = 0;
-  double diameter = 1;         ///< of a mean grain
-  std::optional<Tilt> tilt{};  ///< of an incline that is tilted meanwhile
-  bool independent = false;    ///< grains do not feel each other: each is a run of its own
+  double diameter = 1;                   ///< of a mean grain
+  std::optional<Tilt> tilt{};            ///< of an incline that is tilted meanwhile
+  std::vector<std::string> materials{};  ///< their names, by number
+  bool independent = false;              ///< grains do not feel each other: each is a run of its own
   double time_step = 0, duration = 0;
   double contact_time = 0;                ///< t_n of the contact that the scene is about
   std::shared_ptr<io::RunFiles> files{};  ///< where they are written; without them nothing is

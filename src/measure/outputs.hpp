@@ -115,6 +115,27 @@ class HeightsOutput final : public TableOutput<HeightsOutput, HeightSpec> {
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
 
+struct SegregationSpec {
+  From from = 0;
+  double every = 0, bin = 0;
+};
+template <class Archive>
+void describe(Archive& a, SegregationSpec& spec) {
+  a.required("every", spec.every, positive, "time between rows of segregation.csv, and between samples");
+  a.number_or_word("from", spec.from, "steady", non_negative,
+                   "averages of species.csv begin; \"steady\": when the flow settled");
+  a.value("bin", spec.bin, non_negative, "height of a layer; default a bead's diameter");
+}
+/// [output.segregation]
+class SegregationOutput final : public TableOutput<SegregationOutput, SegregationSpec> {
+ public:
+  static constexpr std::string_view word = "segregation",
+                                    text = "how materials part, and what each does at each height";
+  void fill(const Scales& scales) override;
+  std::vector<std::string> files() const override { return {"segregation.csv", "species.csv"}; }
+  std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
+};
+
 struct ImpactSpec {
   double from = 0;
 };

@@ -44,6 +44,14 @@ std::unique_ptr<Engine> made(const scene::Scene& scene, int threads, measure::Ru
   run.frame = world.frame;
   run.tilt = world.tilt;
   run.facts = io::facts_of(world, units_of(scene));
+  for (const auto& material : scene.materials) run.materials.push_back(material.name);
+  run.facts.materials = run.materials;
+  // Starts and methods may tell kinds of grains apart in scenes that name none.
+  const auto& kinds = world.grains.material;
+  constexpr int sensible = 64;  // a file may number them as it likes
+  const int most = kinds.empty() ? 0 : std::min(sensible, *std::max_element(kinds.begin(), kinds.end()));
+  for (int k = static_cast<int>(run.materials.size()); k <= most; ++k)
+    run.materials.push_back(std::to_string(k));
   return scene.engine->make(std::move(world), scene::setting_of(scene), threads);
 }
 

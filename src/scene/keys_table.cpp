@@ -11,6 +11,10 @@ std::string keys_table() {
   WallSpec example;
   describe(wall, example);
   table.add("`[[wall]]` planes, segments, polygons and cylinders that grains do not pass", wall.keys());
+  KeyLister between;
+  laws::ContactBetween own;
+  describe(between, own);
+  table.add("`[[contact.between]]` what is two materials' own where they meet", between.keys());
   table.add_kinds("grains.start", "kind", starts::list());
   for (const auto& law : laws::all_law_keys())
     table.add(fmt::format("`[{}]` law = \"{}\"", law.table, law.name), law.keys);

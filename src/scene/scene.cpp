@@ -1,7 +1,9 @@
 #include "scene/scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -84,19 +86,13 @@ static void describe(Archive& a, DomainSpec& domain) {
 
 struct BedTable {
   Chosen<beds::Bed>& bed;
+  std::optional<std::string>& material;
 };
 template <class Archive>
 static void describe(Archive& a, BedTable& table) {
   choose_kind(a, "kind", table.bed, beds::list());
+  a.value("material", table.material, "its name in [[material]]; default the first");
   chute::describe(a, *table.bed);
-}
-
-template <class Archive>
-static void describe(Archive& a, Diameter& diameter) {
-  a.required("mean", diameter.mean, positive, "mean diameter");
-  a.value("std", diameter.std, non_negative, "standard deviation; gaussian, cut off at three of them");
-  a.check(3 * diameter.std < diameter.mean, "std",
-          "must be less than a third of the mean: sizes are cut off at three standard deviations");
 }
 
 struct StartTable {
@@ -123,10 +119,15 @@ static void describe(Archive& a, GrainsSpec& grains) {
   a.value("independent", grains.independent,
           "grains do not feel each other: many starts of one, side by side");
   a.value("rotation", grains.rotation, "false: grains never spin, as if friction acted at their centres");
-  if constexpr (Archive::reading)
-    a.check(brought || grains.diameter.has_value() != grains.size_ratio.has_value(),
-            grains.diameter ? "size_ratio" : "diameter",
-            "give either diameter = { mean = …, std = … } or size_ratio = R/r");
+  if constexpr (Archive::reading) {
+    const int given = grains.diameter.has_value() + grains.size_ratio.has_value();
+    if (grains.sizes_of_materials)
+      a.check(given == 0, grains.diameter ? "diameter" : "size_ratio",
+              "each [[material]] of the grains has a diameter of its own: leave this out");
+    else
+      a.check(brought || given == 1, grains.diameter ? "size_ratio" : "diameter",
+              "give either diameter = { mean = …, std = … } or size_ratio = R/r");
+  }
 }
 
 struct EngineTable {
@@ -203,10 +204,12 @@ static void describe(Archive& a, Scene& scene) {
   a.required_section("incline", scene.incline);
   if (!std::same_as<Archive, TomlWriter> || scene.domain.periodic || scene.domain.size)
     a.section("domain", scene.domain);
-  BedTable bed{scene.bed};
+  BedTable bed{scene.bed, scene.bed_material};
   a.required_section("bed", bed);
+  a.sections("material", scene.materials);
   a.sections("wall", scene.walls);
   if (!scene.engine->brings_grains()) {
+    if constexpr (Archive::reading) scene.grains.sizes_of_materials = all_have_diameters(scene.materials);
     a.required_section("grains", scene.grains);
     a.required_section("contact", scene.contact);
   }
@@ -215,7 +218,10 @@ static void describe(Archive& a, Scene& scene) {
   a.required_section("run", run);
   Outputs outputs{scene.output, scene.checkpoint};
   if constexpr (Archive::reading) {
-    a.check(scene.grains.density > 0, "grains", "density is missing; SI scenes need it (kg/m³)");
+    const bool dense = !scene.materials.empty() && std::ranges::all_of(scene.materials, [](const auto& m) {
+      return m.density.has_value();
+    });
+    a.check(scene.grains.density > 0 || dense, "grains", "density is missing; SI scenes need it (kg/m³)");
     const auto scales = scales_of(scene);
     for (auto& kind : scene.output) kind->before_reading(scales);
     scene.checkpoint = scene.duration / 10;
@@ -263,6 +269,19 @@ static void check_output_count(const Scene& scene, const TomlReader& reader) {
   }
 }
 
+/// Refuses names of materials that are not there, and contacts that never end.
+static void check_contacts(const Scene& scene, const engines::Setting& setting, const TomlReader& reader) {
+  laws::check_contact_time(scene.contact, setting.reference(), reader);
+  for (const auto& meeting : setting.meetings()) {
+    if (!meeting.own) continue;
+    const auto impact = meeting.contact.impact(meeting.mean);
+    if (!(impact.restitution > 0 && std::isfinite(impact.contact_time)))
+      reader.fail(fmt::format("contact.between[{}]", meeting.place),
+                  fmt::format("the damping is too strong: {} would never part where they meet",
+                              fmt::join(meeting.own->materials, " and ")));
+  }
+}
+
 static Scene scene_of(const toml::table& table, const std::string& name) {
   TomlReader reader(table, name);
   if (table.contains("experiment"))
@@ -283,8 +302,9 @@ static Scene scene_of(const toml::table& table, const std::string& name) {
     // told with the others
   }
   reader.throw_slips();
+  if (const auto wrong = refusal_of_materials(scene)) reader.fail(wrong->key, wrong->message);
   const auto setting = setting_of(scene);
-  if (!scene.engine->brings_grains()) laws::check_contact_time(scene.contact, setting.reference(), reader);
+  if (!scene.engine->brings_grains()) check_contacts(scene, setting, reader);
   if (const auto wrong = refusal_of(scene)) reader.fail(wrong->key, wrong->message);
   check_step_count(scene, setting, reader);
   check_output_count(scene, reader);
@@ -322,7 +342,8 @@ std::vector<KeyText> plain_keys() {
   std::vector<KeyText> keys;
   for (const auto& key : lister.keys()) {
     const auto in = [&](const char* table) { return key.key.starts_with(table); };
-    const bool told_elsewhere = in("bed.") || in("grains.start.") || in("engine.") || in("contact.") ||
+    const bool told_elsewhere = (in("bed.") && key.key != "bed.material") || in("grains.start.") ||
+                                in("engine.") || in("contact.") ||
                                 (in("output.") && key.key != "output.checkpoint");
     if (!told_elsewhere) keys.push_back(key);
   }

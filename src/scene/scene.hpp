@@ -11,6 +11,8 @@
 #include "engines/kind/method.hpp"
 #include "laws/contact_spec.hpp"
 #include "measure/observer.hpp"
+#include "scene/diameter.hpp"
+#include "scene/material_spec.hpp"
 #include "scene/wall_spec.hpp"
 #include "starts/start.hpp"
 
@@ -48,14 +50,11 @@ struct DomainSpec {
   std::optional<std::vector<double>> size;  ///< lengths along x, y, z
 };
 
-struct Diameter {
-  double mean = 1, std = 0;  ///< gaussian, cut off at three standard deviations
-};
-
 struct GrainsSpec {
   std::int64_t count = 1;
   std::optional<Diameter> diameter;
   std::optional<double> size_ratio;  ///< Φ = R/r instead of a diameter
+  bool sizes_of_materials = false;   ///< every species has a diameter of its own, so that there is no other
   double density = 0;  ///< grains are spheres, in 2D too; default 6/π in reduced units (m = d³)
   bool independent =
       false;             ///< grains do not feel each other: `count` starts of a single grain, side by side
@@ -71,7 +70,9 @@ struct Scene {
   Incline incline;
   DomainSpec domain;
   Chosen<beds::Bed> bed;
-  std::vector<WallSpec> walls;  ///< [[wall]]
+  std::optional<std::string> bed_material;  ///< its name; else the first
+  std::vector<MaterialSpec> materials;      ///< [[material]]
+  std::vector<WallSpec> walls;              ///< [[wall]]
   GrainsSpec grains;
   laws::ContactSpec contact;
   Chosen<engines::Method> engine;

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/keys.hpp"
@@ -19,6 +20,7 @@ struct WallSpec {
   std::optional<std::vector<Place>> corners;
   std::optional<double> radius, spin;
   WallSurface surface;
+  std::optional<std::string> material;
   std::optional<Oscillation> oscillation;
 
   bool is_plane() const { return normal.has_value(); }
@@ -46,6 +48,7 @@ void describe(Archive& a, WallSpec& wall) {
   a.value("radius", wall.radius, positive, "of a cylinder with the grains inside; in 2D a circle");
   a.value("axis", wall.axis, any_number, "direction of a cylinder's axis (3D)");
   a.value("spin", wall.spin, any_number, "of a cylinder about its axis, anticlockwise");
+  a.value("material", wall.material, "its name in [[material]]; default the first");
   a.value("friction", wall.surface.friction, non_negative,
           "μ of contacts with it; default as between grains");
   a.value("static_friction", wall.surface.static_friction, non_negative, "μ_s of contacts at rest with it");

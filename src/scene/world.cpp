@@ -57,24 +57,60 @@ Periods periods_of(const Scene& scene, const beds::Ground& ground) {
   return periods;
 }
 
-std::optional<double> given_diameter(const Scene& scene) {
-  if (scene.grains.diameter) return scene.grains.diameter->mean;
-  if (scene.grains.size_ratio) return *scene.grains.size_ratio * scene.bed->diameter;
-  return {};
+/// That of the species' own, or of all grains.
+double mean_diameter(const Scene& scene, const std::optional<Diameter>& own) {
+  if (own) return own->average();
+  return scene.grains.diameter ? scene.grains.diameter->average()
+                               : *scene.grains.size_ratio * scene.bed->diameter;
+}
+double density_of(const Scene& scene, int material) {
+  if (scene.materials.empty()) return scene.grains.density;
+  return scene.materials.at(static_cast<std::size_t>(material)).density.value_or(scene.grains.density);
+}
+
+/// The number of a material by its name; without one the first.
+int material_of(const Scene& scene, const std::optional<std::string>& name) {
+  return name ? number_of(scene.materials, *name).value() : 0;
+}
+
+/// What the scene says of a mean grain: of all species, each with its share.
+struct MeanGrain {
+  double diameter, mass;
+};
+std::optional<MeanGrain> mean_grain(const Scene& scene) {
+  if (scene.grains.start->brings_grains() || scene.engine->brings_grains()) return {};
+  const auto of = [&](int material, const std::optional<Diameter>& own) {
+    const double d = mean_diameter(scene, own);
+    return MeanGrain{d, sphere_mass(density_of(scene, material), d / 2)};
+  };
+  if (scene.materials.empty()) return of(0, {});
+  const auto shares = shares_of(scene.materials);
+  MeanGrain mean{0, 0};
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    if (shares[k] == 0) continue;
+    const auto one = of(static_cast<int>(k), scene.materials[k].diameter);
+    mean.diameter += shares[k] * one.diameter, mean.mass += shares[k] * one.mass;
+  }
+  return mean;
+}
+
+std::vector<int> materials_of(const Scene& scene) {
+  const auto count = static_cast<std::size_t>(scene.grains.count);
+  if (scene.materials.empty()) return std::vector<int>(count, 0);
+  return draw_materials(scene.materials, count, seed_of(scene));
 }
 
 /// Radii of the grains that the scene describes, in the order of their ids.
 std::vector<double> radii_of(const Scene& scene) {
-  constexpr double farthest = 3;  // standard deviations
-  const double d = given_diameter(scene).value_or(1),
-               std = scene.grains.diameter ? scene.grains.diameter->std : 0;
+  const auto materials = materials_of(scene);
   std::vector<double> radii;
-  for (std::int64_t i = 0; i < scene.grains.count; ++i) {
-    double z = 0;
-    if (std > 0)
-      for (Random random(seed_of(scene), Purpose::sizes, static_cast<std::uint64_t>(i));;)
-        if (z = random.normal(); std::abs(z) <= farthest) break;
-    radii.push_back((d + std * z) / 2);
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const auto& own = scene.materials.empty()
+                          ? scene.grains.diameter
+                          : scene.materials[static_cast<std::size_t>(materials[i])].diameter;
+    const auto& spread = own ? own : scene.grains.diameter;
+    Random random(seed_of(scene), Purpose::sizes, i);
+    radii.push_back((spread ? spread->draw(random) : mean_diameter(scene, {})) / 2);
   }
   return radii;
 }
@@ -85,25 +121,73 @@ starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const
     const auto& size = scene.domain.size;
     return periods.length[k] > 0 ? periods.length[k] : size && k < size->size() ? (*size)[k] : 0;
   };
+  const auto mean = mean_grain(scene);
   starts::Opening opening{scene.dimensions,
                           seed_of(scene),
                           room(0),
                           flat ? 0 : room(1),
                           ground,
                           scene.bed->diameter,
-                          given_diameter(scene).value_or(scene.bed->diameter),
+                          mean ? mean->diameter : scene.bed->diameter,
                           scene.grains.independent,
                           {}};
   if (!scene.grains.start->brings_grains()) opening.radii = radii_of(scene);
   return opening;
 }
 
+/// The grains as they begin. The scene's own have their species by what is drawn; a start may bring them, or name that of an
+/// intruder.
+std::vector<starts::Launch> launches_of(const Scene& scene, const starts::Opening& opening) {
+  auto launches = scene.grains.start->begin(opening);
+  const auto materials = scene.materials.empty() || scene.grains.start->brings_grains() ? std::vector<int>{}
+                                                                                        : materials_of(scene);
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (launches[i].material == 0) launches[i].material = materials[i];
+  const auto known = static_cast<int>(scene.materials.size());
+  for (std::size_t i = 0; i < launches.size() && known > 0; ++i)
+    if (launches[i].material < 0 || launches[i].material >= known)
+      throw InputError(fmt::format(
+          "grains.start: grain {} is of material {}, counted from 0, and there are {} [[material]]", i,
+          launches[i].material, known));
+  for (auto& launch : launches)
+    if (!launch.mass) launch.mass = sphere_mass(density_of(scene, launch.material), launch.radius);
+  return launches;
+}
+
 /// Sizes of the grains, whoever says them.
 struct Sizes {
   double mean_diameter = 1, mean_mass = 1, smallest = 0, largest = 0;  // radii
-  double fastest = 0;
+  double fastest = 0, lightest = 0;
   std::int64_t count = 1;
+  std::vector<engines::Material> materials;
 };
+
+/// Adds a grain to what is known of its species, of which there are `count` so far.
+void add_to(engines::Material& material, double radius, double mass, std::int64_t& count) {
+  const auto n = static_cast<double>(++count);
+  material.radius += (radius - material.radius) / n, material.mass += (mass - material.mass) / n;
+  if (!material.grains || mass < material.smallest_mass)
+    material.smallest_mass = mass, material.smallest_radius = radius;
+  material.grains = true;
+}
+
+/// Of the materials of the grains, whose numbers, radii and masses these are, of the bed and of walls.
+std::vector<engines::Material> species_of(const Scene& scene, const std::vector<int>& of,
+                                          const std::vector<double>& radii,
+                                          const std::vector<double>& masses) {
+  std::vector<engines::Material> all;
+  for (const auto& material : scene.materials) all.push_back({material.name});
+  std::vector<std::int64_t> counts(all.size());
+  for (std::size_t i = 0; i < of.size() && !all.empty(); ++i) {
+    const auto k = static_cast<std::size_t>(of[i]);
+    add_to(all[k], radii[i], masses[i], counts[k]);
+  }
+  const auto ground = scene.bed->lay(site_of(scene));
+  if (all.empty() || ground.beads.empty()) return all;
+  auto& bed = all[static_cast<std::size_t>(material_of(scene, scene.bed_material))];
+  if (!bed.grains) bed.radius = bed.smallest_radius = scene.bed->diameter / 2;
+  return all;
+}
 
 Sizes sizes_of(const Scene& scene) {
   Sizes sizes;
@@ -112,24 +196,30 @@ Sizes sizes_of(const Scene& scene) {
     return sizes;
   }
   std::vector<double> radii, masses;
+  std::vector<int> materials;
   if (scene.grains.start->brings_grains()) {
     const auto ground = scene.bed->lay(site_of(scene));
-    for (const auto& launch :
-         scene.grains.start->begin(opening_of(scene, ground, periods_of(scene, ground)))) {
+    for (const auto& launch : launches_of(scene, opening_of(scene, ground, periods_of(scene, ground)))) {
       radii.push_back(launch.radius);
       const auto& v = launch.velocity;
       sizes.fastest = std::max(sizes.fastest, std::hypot(v[0], v[1], v[2]));
-      masses.push_back(launch.mass.value_or(sphere_mass(scene.grains.density, launch.radius)));
+      masses.push_back(*launch.mass);
+      materials.push_back(launch.material);
     }
     sizes.mean_diameter = 2 * estimate_of(radii).mean;
     sizes.mean_mass = estimate_of(masses).mean;
   } else {
     radii = radii_of(scene);
-    sizes.mean_diameter = given_diameter(scene).value();
-    sizes.mean_mass = sphere_mass(scene.grains.density, sizes.mean_diameter / 2);
+    materials = materials_of(scene);
+    const auto mean = mean_grain(scene).value();
+    sizes.mean_diameter = mean.diameter, sizes.mean_mass = mean.mass;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+      masses.push_back(sphere_mass(density_of(scene, materials[i]), radii[i]));
   }
+  sizes.materials = species_of(scene, materials, radii, masses);
   const auto [low, high] = std::minmax_element(radii.begin(), radii.end());
   sizes.smallest = *low, sizes.largest = *high;
+  sizes.lightest = *std::min_element(masses.begin(), masses.end());
   sizes.count = static_cast<std::int64_t>(radii.size());
   return sizes;
 }
@@ -155,6 +245,7 @@ engines::Setting setting_of(const Scene& scene) {
   for (const auto& output : scene.output)
     if (output->wanted()) s.between_outputs = std::min(s.between_outputs, output->rhythm());
   s.contact = scene.contact;
+  s.materials = sizes.materials;
   s.mean_diameter = sizes.mean_diameter;
   s.mean_mass = sizes.mean_mass;
   s.bead_diameter = scene.bed->diameter;
@@ -165,6 +256,7 @@ engines::Setting setting_of(const Scene& scene) {
   s.rotation = scene.grains.rotation;
   for (const auto& wall : scene.walls) {
     s.wall_surfaces.push_back(wall.surface);
+    s.wall_surfaces.back().material = material_of(scene, wall.material);
     s.drum = std::max(s.drum, wall.radius.value_or(0));
   }
   s.fastest = sizes.fastest;
@@ -191,7 +283,8 @@ engines::Setting setting_of(const Scene& scene) {
   if (s.pairs.empty())
     add("", "the grain with another", many ? laws::Pair(m / 2, R / 2) : with_bed(R, m), R + r);
   if (many && sizes.smallest < sizes.largest) {
-    const double least = sphere_mass(scene.grains.density, sizes.smallest);
+    const double least =
+        scene.materials.empty() ? sphere_mass(scene.grains.density, sizes.smallest) : sizes.lightest;
     s.stiffest = {"", "the two smallest grains", {least / 2, sizes.smallest / 2}, 2 * sizes.smallest};
   }
   return s;
@@ -251,6 +344,32 @@ std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers
 
 }  // namespace
 
+std::optional<Refusal> refusal_of_materials(const Scene& scene) {
+  const bool brought = scene.grains.start->brings_grains();
+  if (auto wrong = misfit(scene.materials, brought)) return wrong;
+  if (scene.materials.empty() && !scene.contact.between.empty())
+    return Refusal{"contact.between", "there is no [[material]] that it could be between"};
+  std::vector<std::string> names;
+  for (const auto& material : scene.materials) names.push_back(material.name);
+  const auto unknown = [&](const std::optional<std::string>& name,
+                           const std::string& key) -> std::optional<Refusal> {
+    if (!name || number_of(scene.materials, *name)) return {};
+    const auto hint = nearest(*name, names);
+    return Refusal{
+        key, names.empty() ? fmt::format("\"{}\": there is no [[material]]", *name)
+             : hint.empty()
+                 ? fmt::format("\"{}\" is no [[material]], there are: {}", *name, fmt::join(names, ", "))
+                 : fmt::format("\"{}\" is no [[material]], did you mean {}?", *name, hint)};
+  };
+  if (auto wrong = unknown(scene.bed_material, "bed.material")) return wrong;
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (auto wrong = unknown(scene.walls[w].material, fmt::format("wall[{}].material", w))) return wrong;
+  for (std::size_t k = 0; k < scene.contact.between.size(); ++k)
+    for (const auto& name : scene.contact.between[k].materials)
+      if (auto wrong = unknown(name, fmt::format("contact.between[{}].materials", k))) return wrong;
+  return {};
+}
+
 std::optional<Refusal> refusal_of(const Scene& scene) {
   const auto site = site_of(scene);
   if (auto wrong = scene.bed->misfit(site)) return wrong;
@@ -262,6 +381,22 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
     if (auto wrong = scene.grains.start->misfit(opening_of(scene, ground, periods))) return wrong;
 
   const auto setting = setting_of(scene);
+  const auto materials_offered = scene.engine->offers().materials;
+  for (std::size_t k = 0; k < scene.contact.between.size(); ++k) {
+    const auto& own = scene.contact.between[k];
+    const auto& known = scene.engine->offers();
+    const auto refuse = [&](const char* key, const char* what) {
+      return Refusal{fmt::format("contact.between[{}].{}", k, key),
+                     fmt::format("engine.method = \"{}\" {}", scene.engine.word(), what)};
+    };
+    if (own.static_friction && !known.static_friction && materials_offered)
+      return refuse("static_friction", "knows one friction only, at rest and sliding");
+    if (own.tangential_restitution && !known.wall_sticking && materials_offered)
+      return refuse("tangential_restitution", "knows no tangential restitution");
+  }
+  if (!scene.materials.empty() && !materials_offered)
+    return Refusal{"material",
+                   fmt::format("engine.method = \"{}\" knows one material only", scene.engine.word())};
   constexpr double clear =
       1.7;  // of the widest contact: with a period shorter than two of them grains touch their images
   const double needed = 2 * std::max(setting.mean_diameter, beds::widest(ground)) * clear;
@@ -328,12 +463,12 @@ World<D> make_world(const Scene& scene) {
   double mean = 0;
   const auto launches = scene.engine->brings_grains()
                             ? std::vector<starts::Launch>{}
-                            : scene.grains.start->begin(opening_of(scene, ground, periods));
+                            : launches_of(scene, opening_of(scene, ground, periods));
   grains.reserve(launches.size() + ground.beads.size());
   for (const auto& launch : launches) {
     Vec<D> place;
     for (int k = 0; k < D; ++k) place[k] = launch.place[static_cast<std::size_t>(k)];
-    const double mass = launch.mass.value_or(sphere_mass(scene.grains.density, launch.radius));
+    const double mass = *launch.mass;
     grains.add(place, launch.radius, mass, sphere_inertia(mass, launch.radius), true);
     for (int k = 0; k < D; ++k) grains.velocity[k].back() = launch.velocity[static_cast<std::size_t>(k)];
     for (int k = 0; k < turns<D>; ++k)
@@ -346,13 +481,15 @@ World<D> make_world(const Scene& scene) {
   }
   grains.independent = scene.grains.independent;
   if (!scene.grains.rotation) std::fill(grains.inverse_inertia.begin(), grains.inverse_inertia.end(), 0.0);
+  const int bed_material = material_of(scene, scene.bed_material);
   for (const auto& bead : ground.beads) {
     Vec<D> place;
     place[0] = bead.along;
     if constexpr (D == 3) place[1] = bead.across;
     place[D - 1] = bead.above;
-    const double mass = sphere_mass(scene.grains.density, bead.radius);
+    const double mass = sphere_mass(density_of(scene, bed_material), bead.radius);
     grains.add(place, bead.radius, mass, sphere_inertia(mass, bead.radius), false);
+    grains.material.back() = bed_material;
   }
   for (int k = 0; k < D; ++k)
     if (const double length = periods.length[static_cast<std::size_t>(k)]; length > 0)
@@ -360,13 +497,18 @@ World<D> make_world(const Scene& scene) {
   wrap_into(world.domain, grains);  // a start beyond the end of a period is the place in it
   world.gravity = gravity_on_incline<D>(scene.incline.gravity, scene.incline.theta());
   if (scene.incline.tilting) world.tilt = scene.incline.tilting->tilt(scene.incline.gravity);
-  const double d = given_diameter(scene).value_or(mean);
+  const auto given = mean_grain(scene);
+  const double d = given ? given->diameter : mean;
   if (ground.smooth) {
     Wall<D> wall;
     wall.normal[D - 1] = 1;
+    wall.surface.material = bed_material;
     world.walls.push_back(wall);
   }
-  for (const auto& wall : scene.walls) world.walls.push_back(make_wall<D>(wall));
+  for (const auto& wall : scene.walls) {
+    world.walls.push_back(make_wall<D>(wall));
+    world.walls.back().surface.material = material_of(scene, wall.material);
+  }
   if (ground.smooth || !ground.beads.empty()) world.floor = -(scene.bed->diameter + d);
   world.frame.dimensions = D;
   world.frame.bead_spacing = ground.spacing > 0 ? ground.spacing : d;

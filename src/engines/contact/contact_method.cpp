@@ -23,12 +23,28 @@ double stick_velocity_of(const ContactMethod& method, const engines::Setting& s)
   return method.stick_velocity.value_or(still * std::sqrt(s.gravity * s.mean_diameter));
 }
 
+/// μ_s where two materials meet: their own, or that of sliding where that is their own.
+double static_friction_of(const ContactMethod& method, const engines::Setting& s,
+                          const engines::MeetingMaterials& two) {
+  const double mu = method.walton(s, two).friction;
+  if (two.own && two.own->static_friction) return *two.own->static_friction;
+  return method.own_friction(two) ? mu : method.static_friction.value_or(mu);
+}
+
 template <int D>
 std::unique_ptr<Engine> made(World<D> world, const ContactMethod& method, const engines::Setting& s,
                              int threads) {
   ContactSetup<D> setup{world.surroundings()};
   setup.contact = {laws::ConstantRestitution{method.e_n(s)}, method.walton(s)};
   setup.static_friction = method.static_friction.value_or(setup.contact.tangential.friction);
+  if (s.by_pair()) {
+    setup.between = s.for_pairs(setup.contact, [&](const engines::MeetingMaterials& two) {
+      return hard::HardContact{laws::ConstantRestitution{method.e_n(s, two)}, method.walton(s, two)};
+    });
+    setup.static_between = s.for_pairs(setup.static_friction, [&](const engines::MeetingMaterials& two) {
+      return static_friction_of(method, s, two);
+    });
+  }
   setup.time_step = method.step(s);
   setup.diameter = s.resolved_diameter();
   setup.reference_impulse = setup.time_step * s.mean_mass * s.gravity;
@@ -52,6 +68,7 @@ Offers ContactMethod::offers() const {
           .wall_surfaces = true,
           .wall_sticking = true,
           .static_friction = true,
+          .materials = true,
           .tilting = true,
           .threads = true};
 }
@@ -74,6 +91,11 @@ std::optional<Refusal> ContactMethod::refusal(const engines::Setting& s) const {
                               fmt::format("wall[{}].static_friction", w)))
         return r;
   }
+  for (const auto& two : s.meetings())
+    if (two.own && two.own->static_friction)
+      if (auto r = too_little(*two.own->static_friction, walton(s, two).friction,
+                              fmt::format("contact.between[{}].static_friction", two.place)))
+        return r;
   return {};
 }
 
@@ -92,7 +114,7 @@ double ContactMethod::step(const engines::Setting& s) const {
 std::vector<Fact> ContactMethod::facts(const engines::Setting& s) const {
   const auto tangential = walton(s);
   const double h = step(s);
-  return {
+  std::vector<Fact> list{
       {"e_n", e_n(s), "",
        impacts == Impacts::walton ? "restitution of fast approaches, one collision after the other (Walton)"
                                   : "restitution of fast approaches, all at once (Moreau)"},
@@ -105,6 +127,9 @@ std::vector<Fact> ContactMethod::facts(const engines::Setting& s) const {
        "way of the fastest grain of the start in a step; 0.3 is where a run stops"},
       {"tolerance", tolerance, "h m g √N", "residual of all contacts at the end of each step"},
       engines::memory_of_grains(s, 1800, 3000)};
+  const auto pairs = pair_facts(s);
+  list.insert(list.end(), pairs.begin(), pairs.end());
+  return list;
 }
 
 double ContactMethod::seconds_per_step(const engines::Setting& s) const {

@@ -85,7 +85,7 @@ void WaltonImpacts<D>::collide(Bodies<D>& bodies, std::vector<Touching<D>>& touc
 template <int D>
 Struck<D> WaltonImpacts<D>::collide(Touching<D>& t, const Event& event, EnergyAccount& account) {
   const double after = event.after;
-  auto contact = setup_.contact;
+  auto contact = hard::contact_between(setup_, grains_, t.i, t.j);
   const auto now = standing(t, after);
   const Vec<D> n = -1.0 * now.normal;  // Walton's: from i to j
   laws::Collider<D> i{velocity(t.i, after), bodies_->spin[t.i], grains_.radius[t.i],

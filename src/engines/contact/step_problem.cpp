@@ -50,8 +50,11 @@ void StepProblem<D>::add(Touching<D>& t, std::size_t k, const Relative<D>& start
                          const Bodies<D>& bodies) {
   const double h = setup_.time_step;
   const auto frame = frame_of(t.normal);
-  auto contact = setup_.contact;
+  auto contact = hard::contact_between(setup_, grains_, t.i, t.j);
   double mu_s = setup_.static_friction;
+  if (!setup_.static_between.empty())
+    mu_s = setup_.static_between(hard::material_of(grains_, setup_.walls, t.i),
+                                 hard::material_of(grains_, setup_.walls, t.j));
   Vec<D> offset{};
   if (is_wall(t.j)) {
     const auto& own = setup_.walls[t.j - grains_.size()].surface;

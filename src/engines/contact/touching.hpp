@@ -19,8 +19,10 @@ enum class SolverKind { nsgs, exact };
 /// What a run of contact dynamics needs besides its grains.
 template <int D>
 struct ContactSetup : Surroundings<D> {
-  hard::HardContact contact{};    ///< e_n and β of impacts; μ_d of all contacts
-  double static_friction = 0;     ///< μ_s ≥ μ_d, of contacts that stick
+  hard::HardContact contact{};          ///< e_n and β of impacts; μ_d of all contacts
+  double static_friction = 0;           ///< μ_s ≥ μ_d, of contacts that stick
+  ByPair<hard::HardContact> between{};  ///< by materials; empty: these for all
+  ByPair<double> static_between{};
   double time_step = 0;           ///< h
   double diameter = 1;            ///< d: what lengths are measured by
   double reference_impulse = 0;   ///< h m g of a mean grain: what residuals are measured by; 0: no gravity

@@ -293,8 +293,9 @@ void EventEngine<D>::collide(std::size_t first, std::size_t second) {
   laws::Collider<D> a = collider(i, n), b = collider(j, n);
   const Vec<D> surface = b.velocity;
   const auto own = is_wall(j) ? wall_of(j).surface : WallSurface{};
-  const auto done = own.temperature ? warm(i, n, *own.temperature, surface, a)
-                                    : exchange(n, setup_.contact.with(own), train, a, b);
+  const auto done = own.temperature
+                        ? warm(i, n, *own.temperature, surface, a)
+                        : exchange(n, hard::contact_between(setup_, grains_, i, j).with(own), train, a, b);
   if (is_wall(j)) account_.wall_work -= dot(done.impulse, surface);
   if (collecting_) {
     const auto id = [&](std::size_t k) {

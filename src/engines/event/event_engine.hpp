@@ -19,6 +19,7 @@ using hard::Meetings;
 template <int D>
 struct EventSetup : Surroundings<D> {
   HardContact contact{};
+  ByPair<HardContact> between{};  ///< by materials; empty: `contact` for all
   /// t_c of the cut-off against inelastic collapse, 0: none. See EventEngine. A real contact lasts t_n of
   /// (3.3); results must not depend on t_c as long as g t_c is far below the velocities that matter.
   double contact_time = 0;

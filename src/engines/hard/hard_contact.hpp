@@ -1,6 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "core/by_pair.hpp"
+#include "core/grains.hpp"
 #include "core/wall.hpp"
 #include "laws/walton.hpp"
 
@@ -20,6 +22,20 @@ struct HardContact {
     return contact;
   }
 };
+
+/// The material of a grain, or from their number on of a wall.
+template <int D>
+int material_of(const Grains<D>& grains, const std::vector<Wall<D>>& walls, std::size_t k) {
+  return k < grains.size() ? grains.material[k] : walls[k - grains.size()].surface.material;
+}
+
+/// The contact of two: `setup.contact`, or where contacts depend on the materials that of theirs. `j` may be a wall.
+template <int D, class Setup>
+const HardContact& contact_between(const Setup& setup, const Grains<D>& grains, std::size_t i,
+                                   std::size_t j) {
+  if (setup.between.empty()) return setup.contact;
+  return setup.between(material_of(grains, setup.walls, i), material_of(grains, setup.walls, j));
+}
 
 /// A wall as a collision sees it, that is touched like that: infinitely heavy, and it moves on as it does.
 template <int D>

@@ -13,12 +13,18 @@ template <int D>
 std::unique_ptr<Engine> made(World<D> world, const HybridMethod& method, const engines::Setting& setting,
                              int threads) {
   HybridSetup<D> setup{world.surroundings()};
-  const double e_n = method.e_n(setting);
-  setup.contact.restitution = laws::ConstantRestitution{e_n};
-  if (method.restitution_velocity)
-    setup.contact.restitution =
-        laws::PowerLawRestitution{1 - e_n, *method.restitution_velocity, method.restitution_exponent};
-  setup.contact.tangential = method.walton(setting);
+  const auto contact = [&](double e_n, const laws::Walton& tangential) {
+    hard::HardContact made{laws::ConstantRestitution{e_n}, tangential};
+    if (method.restitution_velocity)
+      made.restitution =
+          laws::PowerLawRestitution{1 - e_n, *method.restitution_velocity, method.restitution_exponent};
+    return made;
+  };
+  setup.contact = contact(method.e_n(setting), method.walton(setting));
+  if (setting.by_pair())
+    setup.between = setting.for_pairs(setup.contact, [&](const engines::MeetingMaterials& two) {
+      return contact(method.e_n(setting, two), method.walton(setting, two));
+    });
   setup.time_step = method.step(setting);
   setup.diameter = setting.resolved_diameter();
   setup.collisions_per_pair = static_cast<int>(method.collisions_per_step);
@@ -38,6 +44,7 @@ Offers HybridMethod::offers() const {
           .wall_motion = true,
           .wall_surfaces = true,
           .wall_sticking = true,
+          .materials = true,
           .tilting = true,
           .threads = true};
 }
@@ -55,15 +62,18 @@ double HybridMethod::step(const engines::Setting& s) const {
 std::vector<Fact> HybridMethod::facts(const engines::Setting& s) const {
   const auto tangential = walton(s);
   const double dt = step(s);
-  return {{"e_n", e_n(s), "", "restitution of every collision"},
-          {"mu", tangential.friction, "", "friction of collisions that slide"},
-          {"beta", tangential.beta, "", "tangential restitution of collisions that stick"},
-          {"dt", dt, s.in("s", "sqrt(d/g)"), "time step"},
-          {"v dt/d", s.fastest * dt / s.mean_diameter, "",
-           "way of the fastest grain of the start in a step; 0.3 is where a run stops"},
-          {"g dt^2/d", s.gravity * dt * dt / s.mean_diameter, "",
-           "how far grains at rest sink into each other, about"},
-          engines::memory_of_grains(s, 1500, 2500)};
+  std::vector<Fact> list{{"e_n", e_n(s), "", "restitution of every collision"},
+                         {"mu", tangential.friction, "", "friction of collisions that slide"},
+                         {"beta", tangential.beta, "", "tangential restitution of collisions that stick"},
+                         {"dt", dt, s.in("s", "sqrt(d/g)"), "time step"},
+                         {"v dt/d", s.fastest * dt / s.mean_diameter, "",
+                          "way of the fastest grain of the start in a step; 0.3 is where a run stops"},
+                         {"g dt^2/d", s.gravity * dt * dt / s.mean_diameter, "",
+                          "how far grains at rest sink into each other, about"},
+                         engines::memory_of_grains(s, 1500, 2500)};
+  const auto pairs = pair_facts(s);
+  list.insert(list.end(), pairs.begin(), pairs.end());
+  return list;
 }
 
 double HybridMethod::seconds_per_step(const engines::Setting& s) const {

@@ -322,11 +322,12 @@ bool Step<D>::collide(Partners& p, double s) {
   auto& a = bodies_[p.i];
   laws::Collider<D> i{a.velocity + s * gravity_, a.spin, a.radius, a.inverse_mass, a.inverse_inertia}, j;
   Relative before;
-  laws::Walton law = setup_.contact.tangential;
-  const laws::Restitution* restitution = &setup_.contact.restitution;
+  const auto& usual = hard::contact_between(setup_, grains_, p.i, p.j);
+  laws::Walton law = usual.tangential;
+  const laws::Restitution* restitution = &usual.restitution;
   laws::Restitution own;
   if (is_wall(p.j)) {
-    const auto contact = setup_.contact.with(wall_of(p.j).surface);
+    const auto contact = usual.with(wall_of(p.j).surface);
     law = contact.tangential, own = contact.restitution, restitution = &own;
     const Vec<D> place = a.place + s * (a.velocity + (0.5 * s) * gravity_);
     const auto touch = wall_of(p.j).nearest(place, begin_ + s, setup_.domain);
@@ -369,13 +370,14 @@ template <int D>
 void Step<D>::press(Partners& p, double s, const Relative& before, double distance) {
   auto [i, j] = colliders(p, before);
   if (p.normal_mass == 0)
-    p.normal_mass = 1 / (i.inverse_mass + j.inverse_mass), p.shear_mass = laws::slip_mass(i, j);
+    p.normal_mass = 1 / (i.inverse_mass + j.inverse_mass), p.shear_mass = laws::slip_mass(i, j),
+    p.friction = hard::contact_between(setup_, grains_, p.i, p.j).tangential.friction;
   const Vec<D> n = (1 / distance) * before.way;
   const double v_n = dot(before.velocity, n);
   const Vec<D> slip = laws::surface_slip(n, i, j);
   const double pressed = std::max(0.0, p.pressed - over_relaxation * p.normal_mass * v_n);
   Vec<D> sheared = p.sheared - p.shear_mass * slip;
-  const double shear2 = dot(sheared, sheared), most = setup_.contact.tangential.friction * pressed;
+  const double shear2 = dot(sheared, sheared), most = p.friction * pressed;
   if (shear2 > most * most) sheared = (most / std::sqrt(shear2)) * sheared;
   ++outcome_.collisions;
   press_to(p, s, before, {n, slip, v_n}, pressed, sheared, i, j);

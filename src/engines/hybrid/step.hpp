@@ -14,6 +14,7 @@ namespace chute::hybrid {
 template <int D>
 struct HybridSetup : Surroundings<D> {
   hard::HardContact contact{};
+  ByPair<hard::HardContact> between{};  ///< by materials; empty: `contact` for all
   double time_step = 0;
   double diameter = 1;  ///< d: what lengths are measured by
   int collisions_per_pair = 8;
@@ -119,13 +120,14 @@ class Step {
   /// What two partners have in common: a pair of grains, or a grain and a wall.
   struct Partners {
     std::uint32_t i, j;
-    int collisions = 0;                      ///< in this step
-    std::uint32_t hit = 0;                   ///< which of the step's, if they collided
-    bool presses = false;                    ///< they rest on each other in this step
-    double pressed = 0;                      ///< normal impulse on j of that, ≥ 0
-    Vec<D> sheared{};                        ///< tangential one
-    double normal_mass = 0, shear_mass = 0;  ///< that resist an approach and a slip; 0 until it presses
-    Vec<D> image{};                          ///< what makes j − i the nearest image's way
+    int collisions = 0;     ///< in this step
+    std::uint32_t hit = 0;  ///< which of the step's, if they collided
+    bool presses = false;   ///< they rest on each other in this step
+    double pressed = 0;     ///< normal impulse on j of that, ≥ 0
+    Vec<D> sheared{};       ///< tangential one
+    double normal_mass = 0, shear_mass = 0,
+           friction = 0;  ///< that resist an approach and a slip; 0 until it presses
+    Vec<D> image{};       ///< what makes j − i the nearest image's way
   };
   struct Event {
     double time;

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/keys.hpp"
+#include "core/by_pair.hpp"
 #include "core/engine.hpp"
 #include "core/fact.hpp"
 #include "core/offers.hpp"
@@ -16,6 +18,24 @@
 
 /// What a method of simulation tells of itself. Each has a folder beside this one, and a line in engines/list.cpp.
 namespace chute::engines {
+
+/// A species of grains, of the bed or of walls: [[material]].
+struct Material {
+  std::string name;
+  bool grains = false;  ///< are there moving grains of it?
+  /// Of a mean grain and of the smallest; of what is only bed or wall its radius is that of a bead, or 0 of a plane.
+  double radius = 0, mass = 0, smallest_radius = 0, smallest_mass = 0;
+};
+
+/// Two materials that can meet, and how.
+struct MeetingMaterials {
+  int a, b;
+  std::string name;                 ///< "glass-steel"
+  laws::ContactSpec contact;        ///< [contact] with what is their own
+  laws::Pair mean, stiffest;        ///< two mean grains, two of the smallest
+  const laws::ContactBetween* own;  ///< null: nothing is
+  std::size_t place;                ///< of their own in [[contact.between]]
+};
 
 /// What a method may know of a scene besides its world.
 struct Setting {
@@ -28,6 +48,8 @@ struct Setting {
   double spread = 0;             ///< standard deviation of a velocity component at the start
   double between_outputs = 0;    ///< shortest time between two rows of the series or two frames
   laws::ContactSpec contact;
+  std::vector<Material>
+      materials;  ///< [[material]], as grains, bed and walls number them; empty: all are of one
   /// Contacts of interest; the first is the one that contact times and restitutions of the scene are given for: two mean
   /// grains, or the only grain with the bed.
   std::vector<laws::NamedPair> pairs;
@@ -53,6 +75,17 @@ struct Setting {
   }
   laws::Pair reference() const { return pairs.front().pair; }
   const laws::NamedPair& shortest() const { return stiffest ? *stiffest : pairs.front(); }
+  /// Which of the materials can meet: all pairs but those of bed and walls.
+  std::vector<MeetingMaterials> meetings() const;
+  /// Do contacts depend on who meets? Else the contact of the scene is that of all.
+  bool by_pair() const { return !contact.between.empty(); }
+  /// `value(meeting)` of all that can meet; of bed and walls with each other `rest`.
+  template <class Value, class Make>
+  ByPair<Value> for_pairs(const Value& rest, const Make& value) const {
+    ByPair<Value> all(materials.size(), rest);
+    for (const auto& meeting : meetings()) all.set(meeting.a, meeting.b, value(meeting));
+    return all;
+  }
   /// Names of units.
   std::string in(const char* si_unit, const char* reduced_unit) const { return si ? si_unit : reduced_unit; }
 };

@@ -42,6 +42,38 @@ struct WaltonKeys {
     const double* mu = laws::friction(shear);
     return {friction.value_or(mu ? *mu : 0), tangential_restitution};
   }
+  /// The same where two materials meet. What is their own comes before what [engine] says.
+  double e_n(const Setting& s, const MeetingMaterials& meeting) const {
+    if (!meeting.own) return e_n(s);
+    if (meeting.own->restitution) return *meeting.own->restitution;
+    const double own = meeting.contact.impact(meeting.mean).restitution;
+    return own == s.contact.impact(meeting.mean).restitution ? e_n(s) : own;
+  }
+  laws::Walton walton(const Setting& s, const MeetingMaterials& meeting) const {
+    laws::Walton all = walton(s);
+    if (!meeting.own) return all;
+    const auto& own = *meeting.own;
+    if (own.tangential && own.tangential->values.contains("friction"))
+      all.friction = own.tangential->values.at("friction");
+    return {own.friction.value_or(all.friction), own.tangential_restitution.value_or(all.beta)};
+  }
+  /// Do two materials have a friction of their own?
+  static bool own_friction(const MeetingMaterials& meeting) {
+    return meeting.own && (meeting.own->friction ||
+                           (meeting.own->tangential && meeting.own->tangential->values.contains("friction")));
+  }
+  /// What collisions of each two materials come to, where they are not all the same.
+  std::vector<Fact> pair_facts(const Setting& s) const {
+    std::vector<Fact> list;
+    if (!s.by_pair()) return list;
+    for (const auto& meeting : s.meetings()) {
+      const auto tangential = walton(s, meeting);
+      list.push_back({"e_n " + meeting.name, e_n(s, meeting), "", "restitution"});
+      list.push_back({"mu " + meeting.name, tangential.friction, "", "friction"});
+      list.push_back({"beta " + meeting.name, tangential.beta, "", "tangential restitution"});
+    }
+    return list;
+  }
   std::vector<Fact> walton_facts(const Setting& s) const {
     const auto tangential = walton(s);
     return {{"e_n", e_n(s), "", "restitution of every collision"},

@@ -7,7 +7,7 @@
 #include "core/kernel.hpp"
 #include "core/team.hpp"
 #include "engines/soft/contacts.hpp"
-#include "laws/list.hpp"
+#include "engines/soft/law_table.hpp"
 #include "search/coarse_places.hpp"
 
 /// The loops of ContactStages over pairs and contacts.
@@ -145,23 +145,24 @@ struct GeometryKernel {
   }
 };
 
-template <class Law>
+/// `Choice` says which law a contact has (LawTable).
+template <class Choice>
 struct NormalKernel {
-  Law law;
+  Choice choice;
   double least;  // the force is clipped there: 0 without attraction, else −∞
   const double *overlap, *closing, *m_eff, *r_eff;
   Part range;
   double *force, *loss;
 
   void operator()() const {
-    const Law f = law;
+    const Choice law = choice;
     const double floor = least;
     const auto *xi = overlap, *dxi = closing, *m = m_eff, *R = r_eff;
     const auto [begin, end] = range;
     auto *force_out = force, *loss_out = loss;
     CHUTE_VECTOR_LOOP
     for (std::size_t c = begin; c < end; ++c) {
-      const auto result = f(xi[c], dxi[c], laws::Pair(m[c], R[c]));
+      const auto result = law(c)(xi[c], dxi[c], laws::Pair(m[c], R[c]));
       const double clipped = result.total < floor ? floor : result.total;
       force_out[c] = clipped;
       loss_out[c] = result.loss_rate + (clipped - result.total) * dxi[c];  // what the spring gives is lost
@@ -170,12 +171,14 @@ struct NormalKernel {
 };
 
 /// The same for a law with a memory. Such laws branch and call functions; there is nothing to vectorise.
-template <class Law>
-void remembering_normal(const Law& law, std::array<double*, static_cast<std::size_t>(Law::memory)> columns,
+template <class Choice, class Law = typename Choice::Law>
+void remembering_normal(const Choice& choice,
+                        std::array<double*, static_cast<std::size_t>(Law::memory)> columns,
                         double inverse_duration, const double* overlap, const double* closing,
                         const double* m_eff, const double* r_eff, Part range, double* force, double* loss,
                         double* stored) {
   for (std::size_t c = range.begin; c < range.end; ++c) {
+    const Law& law = choice(c);
     std::array<double, static_cast<std::size_t>(Law::memory)> memory;
     for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = columns[k][c];
     const auto result = law(overlap[c], closing[c], laws::Pair(m_eff[c], r_eff[c]), memory);
@@ -186,9 +189,9 @@ void remembering_normal(const Law& law, std::array<double*, static_cast<std::siz
   }
 }
 
-template <class Law, int T>
+template <class Choice, int T>
 struct ShearKernel {
-  Law law;
+  Choice choice;
   std::array<const double*, T> slip;
   const double *normal_force, *m_eff;
   Part range;
@@ -196,7 +199,7 @@ struct ShearKernel {
   double* loss;
 
   void operator()() const {
-    const Law f = law;
+    const Choice law = choice;
     const auto v_s = slip;
     const auto *f_n = normal_force, *m = m_eff;
     const auto [begin, end] = range;
@@ -206,7 +209,7 @@ struct ShearKernel {
     for (std::size_t c = begin; c < end; ++c) {
       Vec<T> v;
       for (int k = 0; k < T; ++k) v[k] = v_s[k][c];
-      const Vec<T> result = f(v, f_n[c], m[c]);
+      const Vec<T> result = law(c)(v, f_n[c], m[c]);
       for (int k = 0; k < T; ++k) force_out[k][c] = result[k];
       loss_out[c] = -dot(result, v);
     }

@@ -30,15 +30,6 @@ Part whole_vectors(Part range, std::size_t count) {
   return {range.begin, range.end == count ? padded(count) : range.end};
 }
 
-template <int D>
-void name(const search::PairList& pairs, const std::int32_t* touching, Part which, Contacts<D>& contacts) {
-  for (std::size_t c = which.begin; c < which.end; ++c) {
-    const auto p = static_cast<std::size_t>(touching[c - which.begin]);
-    contacts.i[c] = pairs.i[p];
-    contacts.j[c] = pairs.j[p];
-    contacts.m_eff[c] = pairs.m_eff[p];
-  }
-}
 /// Fills the last vector up with the last contact.
 template <int D>
 void pad(Contacts<D>& contacts) {
@@ -46,6 +37,7 @@ void pad(Contacts<D>& contacts) {
     contacts.i[c] = contacts.i[c - 1];
     contacts.j[c] = contacts.j[c - 1];
     contacts.m_eff[c] = contacts.m_eff[c - 1];
+    contacts.law[c] = contacts.law[c - 1];
   }
 }
 
@@ -123,6 +115,7 @@ void Contacts<D>::reserve(std::size_t most) {
   if (i.size() >= most) return;
   i.resize(most);
   j.resize(most);
+  law.resize(most);
   for (auto& a : normal) a.resize(most);
   for (auto& a : slip) a.resize(most);
   for (auto& a : shear_force) a.resize(most);
@@ -131,9 +124,12 @@ void Contacts<D>::reserve(std::size_t most) {
 }
 
 template <int D>
-ContactStages<D>::ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa,
-                                SlipRule rule)
-    : domain_(domain), laws_(laws), isa_(isa), memory_(laws, rule), needs_radius_(laws::needs_radius(laws)) {}
+ContactStages<D>::ContactStages(const Domain<D>& domain, const LawTable& laws, Isa isa, SlipRule rule)
+    : domain_(domain),
+      laws_(laws),
+      isa_(isa),
+      memory_(laws.first(), rule),
+      needs_radius_(laws.needs_radius()) {}
 
 /// Writes the pairs of `range` that touch to `pair`, and tells how many they are. In pieces, whose hits stay
 /// in the nearest cache.
@@ -180,16 +176,32 @@ std::size_t ContactStages<D>::find_in(const search::Candidates<D>& candidates, c
   return static_cast<std::size_t>(std::remove_if(pair, pair + found, apart) - pair);
 }
 
+/// Names the grains of contacts, and which law they have where there are several.
+template <int D>
+void ContactStages<D>::name(const search::PairList& pairs, const std::int32_t* touching, Part which,
+                            const Grains<D>& grains, Contacts<D>& contacts) const {
+  for (std::size_t c = which.begin; c < which.end; ++c) {
+    const auto p = static_cast<std::size_t>(touching[c - which.begin]);
+    contacts.i[c] = pairs.i[p];
+    contacts.j[c] = pairs.j[p];
+    contacts.m_eff[c] = pairs.m_eff[p];
+  }
+  if (!laws_.several()) return;
+  for (std::size_t c = which.begin; c < which.end; ++c)
+    contacts.law[c] = laws_.of(grains.material[static_cast<std::size_t>(contacts.i[c])],
+                               grains.material[static_cast<std::size_t>(contacts.j[c])]);
+}
+
 /// Names the grains of the contacts in a range: what each of the team found follows on what the one before
 /// found.
 template <int D>
-void ContactStages<D>::name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts,
-                                   const Team& team) const {
+void ContactStages<D>::name_grains(const search::PairList& pairs, Part range, const Grains<D>& grains,
+                                   Contacts<D>& contacts, const Team& team) const {
   std::size_t first = 0;
   for (std::size_t member = 0; member < found_.size(); first += found_[member++]) {
     const auto* touching = touching_.pair.data() + team.part(pairs.size(), member).begin;
     const auto begin = std::max(range.begin, first), end = std::min(range.end, first + found_[member]);
-    if (begin < end) name(pairs, touching + (begin - first), {begin, end}, contacts);
+    if (begin < end) name(pairs, touching + (begin - first), {begin, end}, grains, contacts);
   }
   if (range.end == contacts.count) pad(contacts);
 }
@@ -221,7 +233,7 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, std::sp
     touching.reserve(range.size());
     const Part found{contacts.count, contacts.count + find(candidates, grains, range, touching.pair.data())};
     contacts.reserve(found.end);
-    name(candidates.pairs, touching.pair.data(), found, contacts);
+    name(candidates.pairs, touching.pair.data(), found, grains, contacts);
     contacts.count = found.end;
   }
   pad(contacts);
@@ -245,14 +257,15 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
   contacts.reserve(contacts.count);
   if (!memory_.needed()) {
     team.split(contacts.count, [&](Part range, std::size_t) {
-      name_grains(pairs, range, contacts, team);
+      name_grains(pairs, range, grains, contacts, team);
       geometry(grains, range, contacts);
       normal_forces(range, contacts, duration);
       shear_forces(range, contacts, duration);
     });
     return;
   }
-  team.split(contacts.count, [&](Part range, std::size_t) { name_grains(pairs, range, contacts, team); });
+  team.split(contacts.count,
+             [&](Part range, std::size_t) { name_grains(pairs, range, grains, contacts, team); });
   memory_.match(contacts, duration);
   // In pieces whose numbers stay in a core's own cache from stage to stage: there are several hundred bytes a contact.
   constexpr std::size_t piece = 512;
@@ -277,48 +290,46 @@ void ContactStages<D>::remembered_forces(const Grains<D>& grains, Part range, Co
 template <int D>
 void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double duration) {
   const double inverse_duration = duration > 0 ? 1 / duration : 0;
-  std::visit(
-      [&]<class Law>(const Law& law) {
-        const double *xi = contacts.overlap.data(), *dxi = contacts.closing.data();
-        const double *m = contacts.m_eff.data(), *R = contacts.r_eff.data();
-        double *force = contacts.normal_force.data(), *loss = contacts.normal_loss.data();
-        if constexpr (laws::NormalWithMemory<Law>) {
-          std::array<double*, static_cast<std::size_t>(Law::memory)> columns;
-          for (int k = 0; k < Law::memory; ++k)
-            columns[static_cast<std::size_t>(k)] = memory_.normal_column(k);
-          remembering_normal(law, columns, inverse_duration, xi, dxi, m, R, range, force, loss,
-                             contacts.stored.data());
-        } else {
-          const double least = laws_.attraction ? -std::numeric_limits<double>::infinity() : 0.0;
-          run_kernel(isa_, NormalKernel<Law>{law, least, xi, dxi, m, R, whole_vectors(range, contacts.count),
-                                             force, loss});
-        }
-      },
-      laws_.normal);
+  laws_.normal(contacts.law.data(), [&]<class Choice>(const Choice& choice) {
+    using Law = typename Choice::Law;
+    const double *xi = contacts.overlap.data(), *dxi = contacts.closing.data();
+    const double *m = contacts.m_eff.data(), *R = contacts.r_eff.data();
+    double *force = contacts.normal_force.data(), *loss = contacts.normal_loss.data();
+    if constexpr (laws::NormalWithMemory<Law>) {
+      std::array<double*, static_cast<std::size_t>(Law::memory)> columns;
+      for (int k = 0; k < Law::memory; ++k) columns[static_cast<std::size_t>(k)] = memory_.normal_column(k);
+      remembering_normal(choice, columns, inverse_duration, xi, dxi, m, R, range, force, loss,
+                         contacts.stored.data());
+    } else {
+      const double least = laws_.first().attraction ? -std::numeric_limits<double>::infinity() : 0.0;
+      run_kernel(isa_, NormalKernel<Choice>{choice, least, xi, dxi, m, R,
+                                            whole_vectors(range, contacts.count), force, loss});
+    }
+  });
 }
 
 template <int D>
 void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double duration) {
   const std::array<Array, turns<D>>& slip = contacts.slip;
-  std::visit(
-      [&]<class Law>(const Law& law) {
-        if constexpr (laws::ShearWithMemory<Law>)
-          run_kernel(isa_, remembering<Law>(law, range, contacts, duration));
-        else
-          run_kernel(isa_,
-                     ShearKernel<Law, turns<D>>{law, pointers(slip), contacts.normal_force.data(),
-                                                contacts.m_eff.data(), whole_vectors(range, contacts.count),
-                                                pointers(contacts.shear_force), contacts.shear_loss.data()});
-      },
-      laws_.shear);
+  laws_.shear(contacts.law.data(), [&]<class Choice>(const Choice& choice) {
+    if constexpr (laws::ShearWithMemory<typename Choice::Law>)
+      run_kernel(isa_, remembering(choice, range, contacts, duration));
+    else
+      run_kernel(isa_,
+                 ShearKernel<Choice, turns<D>>{choice, pointers(slip), contacts.normal_force.data(),
+                                               contacts.m_eff.data(), whole_vectors(range, contacts.count),
+                                               pointers(contacts.shear_force), contacts.shear_loss.data()});
+  });
 }
 
 template <int D>
-template <class Law>
-RememberingShearKernel<Law, turns<D>> ContactStages<D>::remembering(const Law& law, Part range,
-                                                                    Contacts<D>& contacts, double duration) {
-  RememberingShearKernel<Law, turns<D>> kernel{};
-  kernel.law = law, kernel.duration = duration, kernel.range = range, kernel.source = memory_.source();
+template <class Choice>
+RememberingShearKernel<Choice, turns<D>> ContactStages<D>::remembering(const Choice& choice, Part range,
+                                                                       Contacts<D>& contacts,
+                                                                       double duration) {
+  using Law = typename Choice::Law;
+  RememberingShearKernel<Choice, turns<D>> kernel{};
+  kernel.choice = choice, kernel.duration = duration, kernel.range = range, kernel.source = memory_.source();
   kernel.normal_force = contacts.normal_force.data(), kernel.overlap = contacts.overlap.data();
   kernel.m_eff = contacts.m_eff.data(), kernel.r_eff = contacts.r_eff.data();
   kernel.stored_before = memory_.stored_column(), kernel.stored = contacts.stored.data();
@@ -399,13 +410,11 @@ void ContactStages<D>::apply_losses(const Contacts<D>& contacts, Part range, dou
 template <int D>
 double ContactStages<D>::elastic_energy(const Contacts<D>& contacts) const {
   double sum = 0;
-  std::visit(
-      [&]<class Law>(const Law& law) {
-        if constexpr (!laws::NormalWithMemory<Law>)
-          for (std::size_t c = 0; c < contacts.count; ++c)
-            sum += law.energy(contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c]));
-      },
-      laws_.normal);
+  laws_.normal(contacts.law.data(), [&]<class Choice>(const Choice& law) {
+    if constexpr (!laws::NormalWithMemory<typename Choice::Law>)
+      for (std::size_t c = 0; c < contacts.count; ++c)
+        sum += law(c).energy(contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c]));
+  });
   if (memory_.needed())
     for (std::size_t c = 0; c < contacts.count; ++c) sum += contacts.stored[c];
   return sum;

@@ -8,12 +8,12 @@
 #include "core/kernel.hpp"
 #include "engines/soft/contact_memory.hpp"
 #include "engines/soft/contacts.hpp"
-#include "laws/list.hpp"
+#include "engines/soft/law_table.hpp"
 #include "search/neighbour_list.hpp"
 
 namespace chute::soft {
 
-template <class Law, int T>
+template <class Choice, int T>
 struct RememberingShearKernel;
 
 /// The stages that turn places and velocities into forces, each a vectorised loop over arrays:
@@ -31,7 +31,7 @@ class ContactStages {
     }
   };
 
-  ContactStages(const Domain<D>& domain, const laws::ContactLaws& laws, Isa isa = best_isa(),
+  ContactStages(const Domain<D>& domain, const LawTable& laws, Isa isa = best_isa(),
                 SlipRule rule = SlipRule::trapezoid);
 
   /// Fills `contacts` from the pairs that may touch, shared out among a team. Allocates only when the list
@@ -45,7 +45,8 @@ class ContactStages {
   void evaluate(const search::Candidates<D>& candidates, std::span<const Part> pairs, const Grains<D>& grains,
                 Contacts<D>& contacts, Touching& touching);
 
-  /// The same for contacts whose geometry is there already, as that of contacts with walls is (WallContacts).
+  /// The same for contacts whose geometry is there already, as that of contacts with walls is (WallContacts), and of which
+  /// each knows its law where there are several.
   void evaluate_found(const Grains<D>& grains, Contacts<D>& contacts, double duration);
   /// Adds what they do to the first grain of each.
   void apply_first(const Contacts<D>& contacts, const Grains<D>& grains, double duration,
@@ -65,13 +66,14 @@ class ContactStages {
   /// Energy stored in the contacts, in both directions.
   double elastic_energy(const Contacts<D>& contacts) const;
 
+  bool several_laws() const { return laws_.several(); }
   const ContactMemory<D>& memory() const { return memory_; }
   ContactMemory<D>& memory() { return memory_; }
   double deepest() const { return deepest_; }
 
  private:
   Domain<D> domain_;
-  laws::ContactLaws laws_;
+  LawTable laws_;
   Isa isa_;
   ContactMemory<D> memory_;
   bool needs_radius_;
@@ -83,14 +85,17 @@ class ContactStages {
                    std::int32_t* pair) const;
   std::size_t find_in(const search::Candidates<D>& candidates, const Grains<D>& grains, Part range,
                       std::int64_t* hit, std::int32_t* pair) const;
-  void name_grains(const search::PairList& pairs, Part range, Contacts<D>& contacts, const Team& team) const;
+  void name(const search::PairList& pairs, const std::int32_t* touching, Part which, const Grains<D>& grains,
+            Contacts<D>& contacts) const;
+  void name_grains(const search::PairList& pairs, Part range, const Grains<D>& grains, Contacts<D>& contacts,
+                   const Team& team) const;
   void geometry(const Grains<D>& grains, Part range, Contacts<D>& contacts) const;
   void normal_forces(Part range, Contacts<D>& contacts, double duration);
   void shear_forces(Part range, Contacts<D>& contacts, double duration);
   void remembered_forces(const Grains<D>& grains, Part range, Contacts<D>& contacts, double duration);
-  template <class Law>
-  RememberingShearKernel<Law, turns<D>> remembering(const Law& law, Part range, Contacts<D>& contacts,
-                                                    double duration);
+  template <class Choice>
+  RememberingShearKernel<Choice, turns<D>> remembering(const Choice& choice, Part range,
+                                                       Contacts<D>& contacts, double duration);
 };
 
 }  // namespace chute::soft

@@ -17,6 +17,7 @@ template <int D>
 struct Contacts {
   std::size_t count = 0;
   std::vector<std::int32_t> i, j;
+  std::vector<std::int32_t> law;     ///< which of the laws, where there are several (LawTable)
   std::array<Array, D> normal;       ///< n, from i to j (2.4)
   Array overlap;                     ///< ξ (2.3)
   Array closing;                     ///< dξ/dt = −v_n (2.6)

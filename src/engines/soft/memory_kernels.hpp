@@ -117,11 +117,12 @@ struct CarryKernel {
 /// minus the change of what is stored: work by the mean of the forces at the ends of the step, which for a
 /// spring is exact. A force that is there at once when a contact begins or ends acts for half a step before
 /// or after, as it does in the integration.
-template <class Law, int T>
+template <class Choice, int T>
 struct RememberingShearKernel {
+  using Law = typename Choice::Law;
   static constexpr std::size_t vectors = static_cast<std::size_t>(Law::vectors),
                                scalars = static_cast<std::size_t>(Law::scalars);
-  Law law;
+  Choice choice;
   double duration;
   const std::int32_t* source;
   std::array<const double*, T> way, slip;
@@ -133,7 +134,7 @@ struct RememberingShearKernel {
   double *stored_before, *stored, *loss;
 
   void operator()() const {
-    const Law f = law;
+    const Choice law = choice;
     const double dt = duration, inverse = duration > 0 ? 1 / duration : 0;
     const auto* from = source;
     const auto path = way, v_s = slip;
@@ -158,6 +159,7 @@ struct RememberingShearKernel {
         for (int k = 0; k < T; ++k) own.vector[v][k] = own_vectors[v][k][c];
       for (std::size_t s = 0; s < scalars; ++s) own.scalar[s] = own_scalars[s][c];
 
+      const Law& f = law(c);
       const Vec<T> now = f(seen, own);
       const double energy = f.energy(seen, own);
       const double taken = -0.5 * dot(before + now, moved) - (energy - kept[c]);

@@ -16,8 +16,10 @@
 namespace chute::soft {
 namespace {
 
-laws::ContactLaws laws_for(laws::ContactLaws laws, double time_step) {
-  laws::know_time_step(laws, time_step);
+template <int D>
+LawTable laws_for(const SoftSetup<D>& setup) {
+  LawTable laws = setup.between.empty() ? LawTable(setup.laws) : LawTable(setup.between);
+  laws.know_time_step(setup.time_step);
   return laws;
 }
 
@@ -28,7 +30,7 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
     : setup_(setup),
       grains_(std::move(grains)),
       list_(setup.domain, setup.skins, setup.search, setup.isa),
-      stages_(setup.domain, laws_for(setup.laws, setup.time_step), setup.isa,
+      stages_(setup.domain, laws_for(setup), setup.isa,
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
       walls_(setup.surroundings(), setup.laws, setup.wall_laws,

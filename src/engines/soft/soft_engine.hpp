@@ -25,7 +25,9 @@ struct ManyGrains {
 template <int D>
 struct SoftSetup : Surroundings<D> {
   laws::ContactLaws laws{};
-  std::vector<std::optional<laws::ContactLaws>> wall_laws{};  ///< of the walls that have their own
+  ByPair<laws::ContactLaws> between{};  ///< by materials; empty: `laws` for all
+  std::vector<std::optional<LawTable>>
+      wall_laws{};  ///< of the walls that have their own; if `between` is not empty, of all
   Scheme scheme = Scheme::gear5;
   double time_step = 0;
   typename search::NeighbourList<D>::Skins skins{};

@@ -5,10 +5,10 @@
 namespace chute::soft {
 
 template <int D>
-WallContacts<D>::WallContacts(const Surroundings<D>& around, const laws::ContactLaws& laws,
-                              const std::vector<std::optional<laws::ContactLaws>>& own, Kernels kernels)
+WallContacts<D>::WallContacts(const Surroundings<D>& around, const LawTable& laws,
+                              const std::vector<std::optional<LawTable>>& own, Kernels kernels)
     : domain_(around.domain), walls_(around.walls) {
-  const auto add = [&](const laws::ContactLaws& theirs) -> Group& {
+  const auto add = [&](const LawTable& theirs) -> Group& {
     return groups_.emplace_back(Group{{}, ContactStages<D>(domain_, theirs, kernels.isa, kernels.rule)});
   };
   if (any()) add(laws);
@@ -36,6 +36,7 @@ void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest,
   Contacts<D>& contacts = group.contacts;
   contacts.count = 0;
   contacts.deep = 0;
+  const bool several = group.stages.several_laws();
   for (std::size_t i = 0; i < grains.moving; ++i) {
     const Vec<D> place = grains.place(i);
     for (const std::size_t w : group.walls) {
@@ -48,6 +49,7 @@ void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest,
       const std::size_t c = contacts.count++;
       contacts.i[c] = static_cast<std::int32_t>(i);
       contacts.j[c] = static_cast<std::int32_t>(grains.size() + w);
+      if (several) contacts.law[c] = grains.material[i];
       contacts.m_eff[c] = 1 / grains.inverse_mass[i];
       contacts.r_eff[c] = walls_[w].effective_radius(R);
       const Vec<D> n = -1.0 * nearest.normal,

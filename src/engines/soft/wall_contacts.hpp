@@ -11,8 +11,8 @@ namespace chute::soft {
 /// (2.4), (2.6), (2.7), the partner being infinitely heavy; what the laws make of it; and the work of walls that move. A
 /// contact's j is the number of grains plus that of the wall.
 ///
-/// Walls with friction or restitution of their own have laws of their own, and so a list of contacts each; all others
-/// share the first. In each list contacts are ordered by (i, j).
+/// Walls with friction or restitution or a material of their own have laws of their own, which may depend on the material of the
+/// grain, and so a list of contacts each; all others share the first. In each list contacts are ordered by (i, j).
 template <int D>
 class WallContacts {
  public:
@@ -22,8 +22,8 @@ class WallContacts {
     SlipRule rule;
   };
   /// `own` has the laws of each wall that has its own.
-  WallContacts(const Surroundings<D>& around, const laws::ContactLaws& laws,
-               const std::vector<std::optional<laws::ContactLaws>>& own, Kernels kernels);
+  WallContacts(const Surroundings<D>& around, const LawTable& laws,
+               const std::vector<std::optional<LawTable>>& own, Kernels kernels);
 
   bool any() const { return !walls_.empty(); }
 
