@@ -17,7 +17,10 @@ using Sums = std::array<double, 10>;
 class Sections {
  public:
   explicit Sections(std::span<const Sphere> spheres) : spheres_(spheres) {
-    for (const auto& s : spheres_) size_ = std::max(size_, s.radius);
+    for (const auto& s : spheres_) {
+      extent_ = std::max(extent_, norm(s.centre) + s.radius);
+      volume_ += 4 * std::numbers::pi / 3 * s.radius * s.radius * s.radius;
+    }
   }
 
   Sums integrate() const {
@@ -32,7 +35,7 @@ class Sections {
 
  private:
   std::span<const Sphere> spheres_;
-  double size_ = 0;
+  double extent_ = 0, volume_ = 0;  // what integrals are at most: volume, times the extent or its square
 
   Sums at(double z) const {
     std::vector<Disc> discs;
@@ -89,14 +92,15 @@ class Sections {
   }
 
   Sums integrate(double from, double to, int depth) const {
-    constexpr double tolerance = 1e-14;  // of the largest sphere's, in each part
-    constexpr int deepest = 30;
-    if (!(to - from > 1e-14 * size_)) return {};
+    constexpr double tolerance =
+        1e-14;  // of what the whole integral can be at most; rounding is a tenth of it
+    constexpr int deepest = 16;
+    if (!(to - from > 1e-14 * extent_)) return {};
     const Sums rough = gauss<15>(from, to), fine = gauss<30>(from, to);
     double off = 0;
     for (std::size_t n = 0; n < fine.size(); ++n) {
-      const int order = n == 0 ? 3 : n < 4 ? 4 : 5;
-      off = std::max(off, std::abs(fine[n] - rough[n]) / std::pow(size_, order));
+      const double most = volume_ * (n == 0 ? 1 : n < 4 ? extent_ : extent_ * extent_);
+      off = std::max(off, std::abs(fine[n] - rough[n]) / most);
     }
     if (off <= tolerance || depth == deepest) return fine;
     const double middle = (from + to) / 2;

@@ -32,6 +32,14 @@ struct Clump {
       if (gyration[k] != gyration[0]) return false;
     return true;
   }
+  double mean_gyration() const {
+    if (spins_like_a_sphere()) return gyration[0];
+    double sum = 0;
+    for (int k = 0; k < turns<D>; ++k) sum += gyration[k] / turns<D>;
+    return sum;
+  }
+  /// Mean moment of inertia of a grain of that mass and scale (see Clumps).
+  double inertia(double mass, double scale) const { return mean_gyration() * mass * scale * scale; }
 };
 
 /// Which of the moving grains has which form, and how large: its `scale` is the radius of the sphere of the same volume.

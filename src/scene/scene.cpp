@@ -123,6 +123,7 @@ static void describe(Archive& a, GrainsSpec& grains) {
   a.value("independent", grains.independent,
           "grains do not feel each other: many starts of one, side by side");
   a.value("rotation", grains.rotation, "false: grains never spin, as if friction acted at their centres");
+  a.sections("shape", grains.shapes);
   if constexpr (Archive::reading)
     a.check(brought || grains.diameter.has_value() != grains.size_ratio.has_value(),
             grains.diameter ? "size_ratio" : "diameter",

@@ -11,6 +11,7 @@
 #include "engines/kind/method.hpp"
 #include "laws/contact_spec.hpp"
 #include "measure/observer.hpp"
+#include "scene/shape_spec.hpp"
 #include "scene/wall_spec.hpp"
 #include "starts/start.hpp"
 
@@ -60,6 +61,7 @@ struct GrainsSpec {
   bool independent =
       false;             ///< grains do not feel each other: `count` starts of a single grain, side by side
   bool rotation = true;  ///< false: grains never spin, as if friction acted at their centres (thesis 4.2.4.2)
+  std::vector<ShapeSpec> shapes;  ///< [[grains.shape]]; none: grains are round
   Chosen<starts::Start> start;
 };
 

@@ -23,9 +23,7 @@ struct Bodies {
            const Orientation<D>& attitude = as_at_start<D>(), double scale = 0.5) {
     const double mass = sphere_mass(6 / std::numbers::pi, scale);
     const auto& clump = clumps.forms[static_cast<std::size_t>(form)];
-    const double mean = soft::mean_gyration(clump);
-    const double inertia = mean == 0.4 ? sphere_inertia(mass, scale) : mean * mass * scale * scale;
-    grains.add(place, scale * clump.radius, mass, inertia, true);
+    grains.add(place, scale * clump.radius, mass, clump.inertia(mass, scale), true);
     for (int k = 0; k < D; ++k) grains.velocity[k].back() = velocity[k];
     for (int k = 0; k < turns<D>; ++k) grains.spin[k].back() = spin[k];
     for (int k = 0; k < orientation_numbers<D>; ++k) grains.orientation[k].back() = attitude[k];

@@ -70,3 +70,15 @@ TEST_CASE("members lie along the principal axes about the centre of mass, and th
             Approx(scale * (spheres[m].centre[k] - spheres[0].centre[k])).epsilon(1e-11).margin(1e-12));
   }
 }
+
+TEST_CASE("a long rod of many spheres comes as exactly as two, and soon") {
+  // Spheres a tenth of their radius apart: nearly a cylinder with round ends, π R² L + ball.
+  std::vector<Sphere> spheres;
+  for (int k = 0; k < 40; ++k) spheres.push_back({{{0.1 * k, 0, 0}}, 1});
+  const double length = 3.9, volume = std::numbers::pi * length + 4 * std::numbers::pi / 3;
+  // each step's scallop takes π d³/12 of it
+  const double scallops = 39 * std::numbers::pi * std::pow(0.1, 3) / 12;
+  CHECK(union_of(spheres).volume == Approx(volume - scallops).epsilon(1e-12));
+  for (auto& s : spheres) s.centre = {{0, 0, s.centre[0]}};
+  CHECK(union_of(spheres).volume == Approx(volume - scallops).epsilon(1e-12));
+}

@@ -274,6 +274,7 @@ GrainsView ClumpEngine<D>::drawn() const {
     for (std::size_t m = first_[i]; m < first_[i + 1]; ++m) all += volume(m);
     for (std::size_t m = first_[i]; m < first_[i + 1]; ++m) {
       told_spheres_.mass[m] = bodies_.mass[i] * (volume(m) / all);
+      for (int k = 0; k < D; ++k) told_spheres_.velocity[k][m] = bodies_.velocity[k][i];
       for (int k = 0; k < orientation_numbers<D>; ++k)
         told_spheres_.orientation[k][m] = bodies_.orientation[k][i];
     }
@@ -329,6 +330,21 @@ std::vector<Contact> ClumpEngine<D>::contacts() const {
     return std::pair(a.a, a.b) < std::pair(b.a, b.b);
   });
   return all;
+}
+
+template <int D>
+std::vector<std::pair<std::string, double>> ClumpEngine<D>::tells() const {
+  std::int64_t touched = 0;
+  std::pair<std::int64_t, std::int64_t> before{-1, -1};
+  auto all = contacts();
+  std::ranges::sort(all, {}, [](const Contact& c) { return std::pair(c.a, c.b); });
+  for (const auto& contact : all) {
+    const std::pair pair(contact.a, contact.b);
+    const bool both = !is_wall(contact.b) && contact.b < static_cast<std::int64_t>(bodies_.moving);
+    if (pair != before) touched += both ? 2 : 1;
+    before = pair;
+  }
+  return {{"coordination", static_cast<double>(touched) / static_cast<double>(bodies_.moving)}};
 }
 
 /// As SoftEngine: what contacts remember is from the predicted places, and must not see the corrected ones.

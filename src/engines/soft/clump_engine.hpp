@@ -23,11 +23,14 @@ class ClumpEngine final : public Engine {
   double time_step() const override { return setup_.time_step; }
   /// The bodies. Their `inertia` is that about the axis that they spin about now, so that ½ Iω² is their energy.
   GrainsView grains() const override;
-  /// The spheres, with the array `body`; the mass of each body is shared out by their volumes.
+  /// The spheres, with the array `body`. They have the velocity and the spin of their body, and parts of its mass, by their
+  /// volumes: sums over them are momenta and energies of translation of the bodies.
   GrainsView drawn() const override;
   EnergyAccount energy() const override;
   /// Of bodies: two of them may touch in several places.
   std::vector<Contact> contacts() const override;
+  /// `coordination`: how many others a grain touches on average, whether grains, beads or walls, in however many places.
+  std::vector<std::pair<std::string, double>> tells() const override;
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
 

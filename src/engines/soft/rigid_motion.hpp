@@ -56,20 +56,11 @@ inline Vec<1> leverage(const Vec<2>& arm, const Vec<2>& force) {
 }
 inline Vec<3> leverage(const Vec<3>& arm, const Vec<3>& force) { return cross(arm, force); }
 
-/// Mean of the principal moments over the mass, for a form of unit size.
-template <int D>
-double mean_gyration(const Clump<D>& clump) {
-  if (clump.spins_like_a_sphere()) return clump.gyration[0];
-  double sum = 0;
-  for (int k = 0; k < turns<D>; ++k) sum += clump.gyration[k] / turns<D>;
-  return sum;
-}
-
 /// The spin ω of a body whose integrator holds `momentum`, λ = L/Ī.
 inline Vec<1> spin_of(const Clump<2>&, const Orientation<2>&, const Vec<1>& momentum) { return momentum; }
 inline Vec<3> spin_of(const Clump<3>& clump, const Orientation<3>& q, const Vec<3>& momentum) {
   if (clump.spins_like_a_sphere()) return momentum;
-  const double mean = mean_gyration(clump);
+  const double mean = clump.mean_gyration();
   Vec<3> along = in_body(q, momentum);
   for (int k = 0; k < 3; ++k) along[k] *= mean / clump.gyration[k];
   return in_space(q, along);
@@ -78,7 +69,7 @@ inline Vec<3> spin_of(const Clump<3>& clump, const Orientation<3>& q, const Vec<
 inline Vec<1> momentum_of(const Clump<2>&, const Orientation<2>&, const Vec<1>& spin) { return spin; }
 inline Vec<3> momentum_of(const Clump<3>& clump, const Orientation<3>& q, const Vec<3>& spin) {
   if (clump.spins_like_a_sphere()) return spin;
-  const double mean = mean_gyration(clump);
+  const double mean = clump.mean_gyration();
   Vec<3> along = in_body(q, spin);
   for (int k = 0; k < 3; ++k) along[k] *= clump.gyration[k] / mean;
   return in_space(q, along);
