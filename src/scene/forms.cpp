@@ -14,6 +14,13 @@ namespace {
 /// Steps of Random, so that these draws are not those of the sizes and the velocities.
 constexpr std::uint64_t drawing_forms = 1, drawing_orientations = 2;
 
+std::optional<Refusal> misfit_of_shapes(const Scene& scene) {
+  const auto& shapes = scene.grains.shapes;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (auto wrong = misfit(shapes[k], fmt::format("grains.shape[{}]", k), scene.dimensions)) return wrong;
+  return {};
+}
+
 template <int D>
 std::vector<FormSizes> sizes_of(const std::vector<Clump<D>>& forms) {
   std::vector<FormSizes> sizes;
@@ -59,14 +66,13 @@ Orientation<D> first_orientation(const Scene& scene, std::size_t grain, const Cl
 }
 
 std::vector<FormSizes> sizes_of_forms(const Scene& scene) {
+  if (misfit_of_shapes(scene)) return {};
   return scene.dimensions == 2 ? sizes_of(forms_of<2>(scene)) : sizes_of(forms_of<3>(scene));
 }
 
 std::optional<Refusal> refusal_of_shapes(const Scene& scene) {
   const auto& grains = scene.grains;
-  for (std::size_t k = 0; k < grains.shapes.size(); ++k)
-    if (auto wrong = misfit(grains.shapes[k], fmt::format("grains.shape[{}]", k), scene.dimensions))
-      return wrong;
+  if (auto wrong = misfit_of_shapes(scene)) return wrong;
   if (grains.shapes.empty()) return {};
   if (grains.start->brings_grains())
     return Refusal{"grains.shape", "the grains that grains.start brings are round"};

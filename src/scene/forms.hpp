@@ -17,7 +17,8 @@ std::size_t form_of(const Scene& scene, std::size_t grain);
 template <int D>
 Orientation<D> first_orientation(const Scene& scene, std::size_t grain, const Clump<D>& form);
 
-/// What others must know of a form, in any dimension, for a grain of the volume of a sphere of radius 1.
+/// What others must know of a form, in any dimension, for a grain of the volume of a sphere of radius 1. Empty where a shape
+/// cannot be: others are asked before that is told.
 struct FormSizes {
   double reach = 1;     ///< of its farthest point from the centre of mass
   double smallest = 1;  ///< radius of a sphere
