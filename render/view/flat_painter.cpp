@@ -14,6 +14,7 @@ using plot::Point;
 using plot::Rect;
 
 constexpr double copy_alpha = 0.5;
+constexpr double edge_shade = 0.55;    ///< how much darker the rim of a grain is, 1: black
 constexpr double impact_share = 0.09;  ///< radius of a mark where a grain was hit, in mean diameters
 
 /// From the files' plane to pixels: turned if the picture is tilted, then scaled.
@@ -85,9 +86,14 @@ class FlatPainter : public Painter {
     if (studio_.style.trail) add_trails(data, colors);
     if (copies()) add_borders();
     for (const bool bed : {true, false})
-      for (std::size_t i = 0; i < data.frame.size(); ++i)
-        if (studio_.is_bed(data.frame, i) == bed && !studio_.is_cut(data.frame.centre(i)))
+      for (std::size_t i = 0, next = 0; i < data.frame.size(); i = next) {
+        next = end_of_body(data.frame, i);
+        if (studio_.is_bed(data.frame, i) != bed || studio_.is_cut(data.frame.centre(i))) continue;
+        if (next - i > 1)
+          add_body(data.frame, i, next, colors[i]);
+        else
           add_grain(data.frame, i, colors[i]);
+      }
     if (studio_.style.impacts) add_impacts(data.impacts);
     if (studio_.style.chains) add_chains(data.links);
     if (studio_.style.arrows) add_arrows(data.frame);
@@ -124,6 +130,33 @@ class FlatPainter : public Painter {
     }
   }
 
+  /// Discs [first, end) that are one grain, in one colour and with one rim around all: first all of them in the rim's colour,
+  /// then their insides. What shines through is mixed with the ground instead, for the discs overlap.
+  void add_body(const read::GrainFrame& frame, std::size_t first, std::size_t end, Rgb color) {
+    const auto add = [&](double shift, double alpha) {
+      const Rgb fill = mix(studio_.palette.ground, color, alpha);
+      for (const bool inside : {false, true})
+        for (std::size_t i = first; i < end; ++i) {
+          Disc disc;
+          disc.centre = map_(frame.x[i] + shift, frame.y[i]);
+          disc.radius = frame.radius[i] * map_.scale;
+          if (inside) disc.radius -= edge_width(disc.radius);
+          disc.fill = disc.edge =
+              inside ? fill : mix(studio_.palette.ground, mix(color, {0, 0, 0}, edge_shade), alpha);
+          scene_.add(disc);
+        }
+    };
+    add(0, studio_.style.opacity);
+    if (!copies()) return;
+    for (const double shift : copy_shifts(studio_.style, period())) {
+      const double beyond =
+          beyond_domain(studio_.survey.domain, frame.x[first] + shift, studio_.style.copy_reach);
+      if (beyond < 1) add(shift, studio_.style.opacity * copy_alpha * std::min(1.0, 1.15 * (1 - beyond)));
+    }
+  }
+
+  static double edge_width(double radius) { return std::clamp(0.055 * radius, 0.45, 2.0); }
+
   void add_disc(const read::GrainFrame& frame, std::size_t i, Rgb color, double shift, double alpha) {
     constexpr Rgb black{0, 0, 0}, white{1, 1, 1};
     const bool bed = studio_.is_bed(frame, i);
@@ -131,8 +164,8 @@ class FlatPainter : public Painter {
     disc.centre = map_(frame.x[i] + shift, frame.y[i]);
     disc.radius = frame.radius[i] * map_.scale;
     disc.fill = color;
-    disc.edge = mix(disc.fill, black, bed ? 0.3 : 0.55);
-    disc.edge_width = std::clamp(0.055 * disc.radius, 0.45, 2.0);
+    disc.edge = mix(disc.fill, black, bed ? 0.3 : edge_shade);
+    disc.edge_width = edge_width(disc.radius);
     disc.alpha = alpha;
     const auto* angle = frame.find(fields::angle.name);
     if (studio_.style.spin && !studio_.style.arrows && angle && angle->components == 1 && !bed &&

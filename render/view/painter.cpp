@@ -24,6 +24,14 @@ Studio::Studio(const FrameStyle& s, const Survey& found)
   if (style.chains && !survey.field.forces && !is_glassy()) map = map.faded(palette.ground, faded_by_chains);
 }
 
+std::size_t end_of_body(const read::GrainFrame& frame, std::size_t first) {
+  const auto* body = frame.own ? frame.find(fields::body.name) : nullptr;
+  if (!body || body->components != 1) return first + 1;
+  std::size_t end = first + 1;
+  while (end < frame.size() && body->at(end) == body->at(first)) ++end;
+  return end;
+}
+
 std::vector<Rgb> Studio::colors(const read::GrainFrame& frame) const {
   const auto values = survey.field.values(frame);
   const auto& kinds = survey.categories;

@@ -52,6 +52,9 @@ struct Studio {
 std::unique_ptr<Painter> make_flat_painter(const Studio& studio, std::unique_ptr<Furniture>& furniture);
 std::unique_ptr<Painter> make_solid_painter(const Studio& studio, std::unique_ptr<Furniture>& furniture);
 
+/// The end of the grain that begins with this point: of chute's own files those that follow and are of the same `body`.
+std::size_t end_of_body(const read::GrainFrame& frame, std::size_t first);
+
 /// Where grains have been: each earlier place in the periodic copy nearest to the one after it.
 struct Trail {
   /// Per grain of the newest frame, the newest place first; empty for those that are fixed.

@@ -82,7 +82,7 @@ struct Beside {
 
 /// The arrays that a frame is drawn from, beside radius and type.
 std::vector<std::string> wanted_arrays(const FrameStyle& style, bool by_id) {
-  std::vector<std::string> names{color_array(style.color)};
+  std::vector<std::string> names{color_array(style.color), std::string(fields::body.name)};
   if (style.color.empty() || style.arrows) names.emplace_back(fields::velocity.name);
   if (style.spin) names.emplace_back(fields::angle.name), names.emplace_back(fields::orientation.name);
   if (style.trail || style.impacts || style.chains || by_id) names.emplace_back(fields::id.name);

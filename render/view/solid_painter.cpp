@@ -64,8 +64,10 @@ class SolidPainter : public Painter {
     const auto* orientation = frame.find(fields::orientation.name);
     orientation_ = studio_.style.spin && orientation && orientation->components == 4 ? orientation : nullptr;
     content_.balls.reserve(frame.size());
-    for (std::size_t i = 0; i < frame.size(); ++i)
-      if (!studio_.is_cut(frame.centre(i))) add_grain(frame, i, colors[i]);
+    for (std::size_t i = 0, end = 0; i < frame.size(); ++i) {
+      const bool alone = i >= end && (end = end_of_body(frame, i)) == i + 1;
+      if (!studio_.is_cut(frame.centre(i))) add_grain(frame, i, colors[i], alone);
+    }
     if (studio_.style.impacts) add_impacts(data);
     if (studio_.style.trail) add_trails(data, colors);
     if (studio_.style.chains) add_chains(data.links);
@@ -196,10 +198,11 @@ class SolidPainter : public Painter {
            (studio_.style.chains && !studio_.is_glassy() && !studio_.is_bed(frame, i) ? shrunk : 1);
   }
 
-  void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color) {
+  /// Of a sphere that is part of a grain its form shows how it turns: it needs no marks.
+  void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color, bool alone) {
     const bool bed = studio_.is_bed(frame, i);
     Ball ball{frame.centre(i), seen_radius(frame, i), color};
-    if (orientation_ && !bed)
+    if (orientation_ && !bed && alone)
       ball.orientation = Eigen::Quaterniond(orientation_->at(i, 0), orientation_->at(i, 1),
                                             orientation_->at(i, 2), orientation_->at(i, 3))
                              .cast<float>();

@@ -26,6 +26,7 @@ inline constexpr Field angle{"angle", "\\phi", "rad", "rad",
 inline constexpr Field orientation{"orientation", "q", "", "", false};  ///< 3D, instead: quaternion w x y z
 inline constexpr Field force{"force", "F", "N", "mg", false};
 inline constexpr Field material{"material", "material", "", "", false};  ///< species
+inline constexpr Field body{"body", "body", "", "", false};  ///< of spheres that make up a grain: which
 
 // Impacts: one point each in impacts.vtp, where the surfaces met
 inline constexpr Field time{"time", "t", "s", "\\sqrt{d/g}", false};
@@ -42,7 +43,7 @@ inline constexpr Field bead{"bead", "bead", "", "", false};           ///< id of
 inline constexpr Field grain{"grain", "grain", "", "", false};        ///< id of the grain that hit
 
 inline constexpr std::array grain_fields{id,    type,        radius, mass,    velocity, angular_velocity,
-                                         angle, orientation, force,  material};
+                                         angle, orientation, force,  material, body};
 
 // Contacts: one line each in contacts/NNNNNN.vtp, between the centres of a and b
 inline constexpr Field contact_a{"a", "a", "", "", false};  ///< id of a moving grain

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -100,6 +101,25 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
   }
 }
 
+/// The table that `part` names within `inside`: one that is made if it is not there, or the n-th of an array, `wall[n]`.
+static toml::table& enter_part(toml::table& inside, std::string_view part, const std::string& name) {
+  const auto bracket = part.find('[');
+  if (bracket == std::string_view::npos) {
+    auto* next = inside.get(part);
+    if (!next || !next->is_table()) next = &inside.insert_or_assign(part, toml::table{}).first->second;
+    return *next->as_table();
+  }
+  std::size_t index = 0;
+  const auto *begin = part.data() + bracket + 1, *end = part.data() + part.size();
+  const auto [rest, error] = std::from_chars(begin, end, index);
+  auto* node = inside.get(part.substr(0, bracket));
+  auto* array = node ? node->as_array() : nullptr;
+  if (error != std::errc() || std::string_view(rest, static_cast<std::size_t>(end - rest)) != "]" || !array ||
+      index >= array->size() || !(*array)[index].is_table())
+    throw InputError(fmt::format("{}: there is no table {}", name, part));
+  return *(*array)[index].as_table();
+}
+
 void set_by_path(toml::table& table, std::string_view assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0)
@@ -132,9 +152,7 @@ void set_by_path(toml::table& table, std::string_view assignment) {
       inside->insert_or_assign(part, std::move(*parsed.get("value")));
       return;
     }
-    auto* next = inside->get(part);
-    if (!next || !next->is_table()) next = &inside->insert_or_assign(part, toml::table{}).first->second;
-    inside = next->as_table();
+    inside = &enter_part(*inside, part, name);
     rest.remove_prefix(dot + 1);
   }
 }

@@ -76,6 +76,8 @@ class Engine {
   double time() const { return static_cast<double>(step()) * time_step(); }
 
   virtual GrainsView grains() const = 0;
+  /// What pictures show: the grains, or the spheres that each of them is made of, with the array `body` that tells of which.
+  virtual GrainsView drawn() const { return grains(); }
   virtual EnergyAccount energy() const = 0;
   /// What touches now. Of hard grains those that touch for a while, with their mean forces.
   virtual std::vector<Contact> contacts() const = 0;

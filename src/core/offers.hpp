@@ -10,6 +10,7 @@ struct Offers {
   bool collisions = false;   ///< what passes between hard grains, collision by collision
   bool impacts = false;      ///< the begin of each contact
   bool independent = false;  ///< grains side by side that do not feel each other
+  bool clumps = false;       ///< grains that are not round
   bool walls = false;        ///< planes that stand still
   bool only_floor = false;   ///< of these only level ones, below the grains
   bool drum = false;         ///< besides, in the plane, a circle around all grains, alone, with its friction

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/clump.hpp"
 #include "core/domain.hpp"
 #include "core/frame.hpp"
 #include "core/grains.hpp"
@@ -30,6 +31,7 @@ struct Surroundings {
 template <int D>
 struct World : Surroundings<D> {
   Grains<D> grains;  ///< the moving ones, then the bed
+  Clumps<D> clumps;  ///< forms of the moving ones, if they are not round
 };
 
 }  // namespace chute

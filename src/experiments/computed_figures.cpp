@@ -180,6 +180,7 @@ const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& c
       {"fig-1-06", compute_fig_1_06},
       {"fig-3-02", compute_fig_3_02},
       {"fig-3-10", compute_fig_3_10},
+      {"fig-b-11", compute_fig_b_11},
       {"table-3-1", compute_table_3_1}};
   return all;
 }

@@ -27,7 +27,7 @@ class Frames final : public Remembering<Frames> {
     const auto k = static_cast<std::int64_t>(times_.size());  // on, where the interval changed meanwhile
     const GrainsView grains = look.engine.grains();
     const auto facts = facts_at(look.engine.time());
-    run_.write_once(name("frames", k), io::grains_vtp(grains, facts));
+    run_.write_once(name("frames", k), io::grains_vtp(look.engine.drawn(), facts));
     if (with_contacts_) {
       auto contacts = contacts_.take(look).value_or(std::vector<Contact>{});
       if (run_.offers.collisions) contacts = joined_by_pair(contacts);

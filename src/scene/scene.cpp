@@ -119,6 +119,7 @@ static void describe(Archive& a, GrainsSpec& grains) {
   a.value("independent", grains.independent,
           "grains do not feel each other: many starts of one, side by side");
   a.value("rotation", grains.rotation, "false: grains never spin, as if friction acted at their centres");
+  a.sections("shape", grains.shapes);
   if constexpr (Archive::reading) {
     const int given = grains.diameter.has_value() + grains.size_ratio.has_value();
     if (grains.sizes_of_materials)

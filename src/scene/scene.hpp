@@ -13,6 +13,7 @@
 #include "measure/observer.hpp"
 #include "scene/diameter.hpp"
 #include "scene/material_spec.hpp"
+#include "scene/shape_spec.hpp"
 #include "scene/wall_spec.hpp"
 #include "starts/start.hpp"
 
@@ -59,6 +60,7 @@ struct GrainsSpec {
   bool independent =
       false;             ///< grains do not feel each other: `count` starts of a single grain, side by side
   bool rotation = true;  ///< false: grains never spin, as if friction acted at their centres (thesis 4.2.4.2)
+  std::vector<ShapeSpec> shapes;  ///< [[grains.shape]]; none: grains are round
   Chosen<starts::Start> start;
 };
 

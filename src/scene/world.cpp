@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "core/random.hpp"
 #include "core/sphere.hpp"
+#include "scene/forms.hpp"
 #include "starts/launch_keys.hpp"
 
 namespace chute::scene {
@@ -115,7 +116,16 @@ std::vector<double> radii_of(const Scene& scene) {
   return radii;
 }
 
+/// How much room a grain takes to either side at the start, over the radius of the sphere of its volume.
+double widest_reach(const std::vector<FormSizes>& forms) {
+  double reach = 1;
+  for (const auto& form : forms) reach = std::max(reach, form.reach);
+  return reach;
+}
+
+/// A start lays grains that are not round as if they were as round as they are long.
 starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const Periods& periods) {
+  const auto forms = sizes_of_forms(scene);
   const bool flat = scene.dimensions == 2;
   const auto room = [&](std::size_t k) {
     const auto& size = scene.domain.size;
@@ -128,10 +138,13 @@ starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const
                           flat ? 0 : room(1),
                           ground,
                           scene.bed->diameter,
-                          mean ? mean->diameter : scene.bed->diameter,
+                          widest_reach(forms) * (mean ? mean->diameter : scene.bed->diameter),
                           scene.grains.independent,
                           {}};
-  if (!scene.grains.start->brings_grains()) opening.radii = radii_of(scene);
+  if (scene.grains.start->brings_grains()) return opening;
+  opening.radii = radii_of(scene);
+  for (std::size_t i = 0; i < opening.radii.size() && !forms.empty(); ++i)
+    opening.radii[i] *= forms[form_of(scene, i)].reach;
   return opening;
 }
 
@@ -282,7 +295,20 @@ engines::Setting setting_of(const Scene& scene) {
         R + (ground.smooth ? 0 : r));
   if (s.pairs.empty())
     add("", "the grain with another", many ? laws::Pair(m / 2, R / 2) : with_bed(R, m), R + r);
-  if (many && sizes.smallest < sizes.largest) {
+  // Masses that contacts see go down to those of the tips of grains that are not round.
+  const FormSizes* light = nullptr;
+  const auto forms = sizes_of_forms(scene);
+  for (const auto& form : forms)
+    if (form.lightest < (light ? light->lightest : 1)) light = &form;
+  if (light) {
+    const double m_tip = light->lightest * sphere_mass(scene.grains.density, sizes.smallest),
+                 R_tip = light->smallest * sizes.smallest;
+    if (many)
+      s.stiffest = {"", "the tips of two grains", {m_tip / 2, R_tip / 2}, 2 * R_tip};
+    else
+      s.stiffest = {"", "the tip of a grain with the bed", with_bed(R_tip, m_tip),
+                    R_tip + (ground.smooth ? 0 : r)};
+  } else if (many && sizes.smallest < sizes.largest) {
     const double least =
         scene.materials.empty() ? sphere_mass(scene.grains.density, sizes.smallest) : sizes.lightest;
     s.stiffest = {"", "the two smallest grains", {least / 2, sizes.smallest / 2}, 2 * sizes.smallest};
@@ -377,6 +403,7 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
   const auto periods = periods_of(scene, ground);
   if (periods.wrong) return periods.wrong;
   const bool brings_grains = scene.engine->brings_grains();
+  if (auto wrong = refusal_of_shapes(scene)) return wrong;
   if (!brings_grains)
     if (auto wrong = scene.grains.start->misfit(opening_of(scene, ground, periods))) return wrong;
 
@@ -408,6 +435,14 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
                       "would touch its own image; needed {:.4g}",
                       scene.dimensions == 2 ? "line" : "domain", periods.length[k], setting.mean_diameter,
                       needed)};
+  const double longest = 2 * setting.mean_diameter / 2 * widest_reach(sizes_of_forms(scene));
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!brings_grains && !scene.grains.shapes.empty() && periods.length[k] > 0 &&
+        periods.length[k] < clear * longest)
+      return Refusal{
+          k == 0 && ground.length ? scene.bed->length_key() : "domain.size",
+          fmt::format("a period of {:.4g} is too short for grains that reach over {:.4g}; needed {:.4g}",
+                      periods.length[k], longest, clear * longest)};
 
   const auto& method = *scene.engine;
   const auto offers = method.offers();
@@ -423,6 +458,8 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
   if (auto r = lacks(offers.independent, "lets all grains feel each other", "grains.independent",
                      scene.grains.independent))
     return r;
+  if (auto r = lacks(offers.clumps, "knows only round grains", "grains.shape", !scene.grains.shapes.empty()))
+    return r;
   if (auto r = lacks(offers.tilting, "keeps the incline where it is, give one angle", "incline.angle",
                      scene.incline.tilting.has_value()))
     return r;
@@ -433,6 +470,8 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
     const auto needs = output->needs();
     if (auto r = lacks(offers.contacts, "tells of no contacts", "output." + output.word(), needs.contacts))
       return r;
+    if (needs.impacts && !scene.grains.shapes.empty())
+      return Refusal{"output." + output.word(), "tells of impacts of round grains only"};
     if (auto r =
             lacks(offers.avalanches, "tells of no avalanches", "output." + output.word(), needs.avalanches))
       return r;
@@ -453,6 +492,23 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
   return method.refusal(setting);
 }
 
+namespace {
+
+/// A grain that is not round, for which the start has left room to `reach` on all sides.
+template <int D>
+void add_clump(const Scene& scene, const Vec<D>& place, double reach, World<D>& world) {
+  const std::size_t i = world.grains.size(), form = form_of(scene, i);
+  const Clump<D>& clump = world.clumps.forms[form];
+  const double scale = reach / clump.reach, mass = sphere_mass(scene.grains.density, scale);
+  world.grains.add(place, scale * clump.radius, mass, clump.inertia(mass, scale), true);
+  const auto orientation = first_orientation(scene, i, clump);
+  for (int k = 0; k < orientation_numbers<D>; ++k) world.grains.orientation[k].back() = orientation[k];
+  world.clumps.form.push_back(static_cast<int>(form));
+  world.clumps.scale.push_back(scale);
+}
+
+}  // namespace
+
 template <int D>
 World<D> make_world(const Scene& scene) {
   const auto ground = scene.bed->lay(site_of(scene));
@@ -465,11 +521,14 @@ World<D> make_world(const Scene& scene) {
                             ? std::vector<starts::Launch>{}
                             : launches_of(scene, opening_of(scene, ground, periods));
   grains.reserve(launches.size() + ground.beads.size());
+  world.clumps.forms = forms_of<D>(scene);
   for (const auto& launch : launches) {
     Vec<D> place;
     for (int k = 0; k < D; ++k) place[k] = launch.place[static_cast<std::size_t>(k)];
-    const double mass = *launch.mass;
-    grains.add(place, launch.radius, mass, sphere_inertia(mass, launch.radius), true);
+    if (world.clumps.any())
+      add_clump(scene, place, launch.radius, world);
+    else
+      grains.add(place, launch.radius, *launch.mass, sphere_inertia(*launch.mass, launch.radius), true);
     for (int k = 0; k < D; ++k) grains.velocity[k].back() = launch.velocity[static_cast<std::size_t>(k)];
     for (int k = 0; k < turns<D>; ++k)
       grains.spin[k].back() = launch.spin[static_cast<std::size_t>(D == 2 ? 2 : k)];

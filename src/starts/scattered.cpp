@@ -86,6 +86,7 @@ class Box {
 }  // namespace
 
 std::optional<Refusal> Scattered::misfit(const Opening& o) const {
+  if (auto wrong = misfit_of_spin(o)) return wrong;
   if (o.length == 0 || (o.dimensions == 3 && o.width == 0))
     return Refusal{"grains.start",
                    "scattered grains fill a bounded domain: give domain.size, or a bed that has a size"};

@@ -24,6 +24,7 @@ std::int64_t Square::columns(double length, double step) const {
 }
 
 std::optional<Refusal> Square::misfit(const Opening& o) const {
+  if (auto wrong = misfit_of_spin(o)) return wrong;
   if (auto wrong = below_the_bed(o, height)) return wrong;
   if (o.length == 0 || (o.dimensions == 3 && o.width == 0))
     return Refusal{"grains.start",
@@ -55,6 +56,7 @@ std::vector<Launch> Square::begin(const Opening& o) const {
 }
 
 std::optional<Refusal> Alone::misfit(const Opening& o) const {
+  if (auto wrong = misfit_of_spin(o)) return wrong;
   if (auto wrong = below_the_bed(o, height)) return wrong;
   if (o.radii.size() != 1 && !o.independent)
     return Refusal{

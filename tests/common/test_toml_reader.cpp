@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
 
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
@@ -56,6 +57,17 @@ std::string refused(const std::string& text) {
     return error.what();
   }
   return "accepted";
+}
+std::string set_in(const std::string& text, const std::string& assignment) {
+  auto table = parse_toml(text, "h.toml");
+  try {
+    set_by_path(table, assignment);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  std::ostringstream out;
+  out << table;
+  return out.str();
 }
 std::string written(House house) {
   TomlWriter writer;
@@ -146,4 +158,16 @@ TEST_CASE("the nearest word is one that looks like a slip") {
   CHECK(nearest("restituton", known) == "restitution");
   CHECK(nearest("colour", known).empty());
   CHECK(nearest("", known).empty());
+}
+
+TEST_CASE("a path may go through the n-th of several tables") {
+  const std::string walls = "wall = [{height = 1}, {height = 2}]";
+  CHECK(set_in(walls, "wall[1].height=3") == "wall = [ { height = 1 }, { height = 3 } ]");
+  CHECK(set_in(walls, "wall[0].brick.size=3") ==
+        "wall = [ { brick = { size = 3 }, height = 1 }, { height = 2 } ]");
+  for (const auto* part :
+       {"wall[2]", "wall[-1]", "wall[]", "wall[0", "wall[0]]", "wall[0x]", "roof[0]", "[0]"})
+    CHECK(set_in(walls, std::string(part) + ".height=3") ==
+          "--set " + std::string(part) + ".height: there is no table " + part);
+  CHECK(set_in("wall = [1, 2]", "wall[0].height=3") == "--set wall[0].height: there is no table wall[0]");
 }

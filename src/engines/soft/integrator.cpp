@@ -147,8 +147,8 @@ struct Turner {
 
 template <int D>
 Integrator<D>::Integrator(Scheme scheme, double time_step, const Vec<D>& gravity, const Domain<D>& domain,
-                          Isa isa)
-    : scheme_(scheme), dt_(time_step), gravity_(gravity), domain_(domain), isa_(isa) {}
+                          Isa isa, bool turns)
+    : scheme_(scheme), dt_(time_step), gravity_(gravity), domain_(domain), isa_(isa), turns_(turns) {}
 
 template <int D>
 void Integrator<D>::start(Grains<D>& grains, const GrainSums<D>& sums) {
@@ -196,7 +196,8 @@ void Integrator<D>::pass(Grains<D>& grains, GrainSums<D>& sums, Part range) {
       advance<Correct, Predict, false, false>(isa_, scheme_, column, dt_);
     if (outside) wrap(grains, range, k);
   }
-  if constexpr (Predict && D == 3) turn(grains, range);
+  if constexpr (Predict && D == 3)
+    if (turns_) turn(grains, range);
 }
 
 template <int D>

@@ -18,14 +18,15 @@ enum class Scheme { gear5, verlet };
 /// see the velocities of the half step, as in LAMMPS.
 ///
 /// In 3D the components of the spin are integrated like velocities, for all grains are spheres and no frame turns with
-/// them; orientations follow the spins, step by step.
+/// them; orientations follow the spins, step by step. Grains that are not round turn otherwise (RigidMotion): then
+/// `turns` is false, and orientations in 3D are left alone.
 template <int D>
 class Integrator {
  public:
   static constexpr int degrees = D + turns<D>;
 
   Integrator(Scheme scheme, double time_step, const Vec<D>& gravity, const Domain<D>& domain,
-             Isa isa = best_isa());
+             Isa isa = best_isa(), bool turns = true);
 
   /// From the next correction on.
   void set_gravity(const Vec<D>& gravity) { gravity_ = gravity; }
@@ -49,6 +50,7 @@ class Integrator {
   Vec<D> gravity_;
   Domain<D> domain_;
   Isa isa_;
+  bool turns_;
   std::array<std::array<Array, degrees>, 3> derivatives_;
 
   template <bool Correct, bool Predict>

@@ -183,11 +183,10 @@ void SoftEngine<D>::look_again() {
   walls_.remember(remembered_of_walls);
 }
 
-/// What an overlap that is too deep comes from: a contact that a step passes over is not one that is too soft.
 template <int D>
-std::string SoftEngine<D>::why_so_deep() const {
+std::string why_so_deep(const SoftSetup<D>& setup) {
   constexpr double fewest = 5;  // steps in a contact, as engine.steps_per_contact has it
-  const double steps = setup_.contact_time / setup_.time_step;
+  const double steps = setup.contact_time / setup.time_step;
   if (steps >= fewest) return "stiffness is too low for these velocities";
   return fmt::format("the time step is {:.2g} of a contact time, which needs {} steps or more", 1 / steps,
                      fewest);
@@ -203,7 +202,7 @@ void SoftEngine<D>::check_overlaps() const {
     if (depth > setup_.deepest_overlap)
       leave_physics(i, fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): {}",
                                    wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth,
-                                   setup_.deepest_overlap, why_so_deep()));
+                                   setup_.deepest_overlap, why_so_deep(setup_)));
   });
 }
 
@@ -417,6 +416,8 @@ void SoftEngine<D>::restore(std::istream& in) {
   look_again();
 }
 
+template std::string why_so_deep(const SoftSetup<2>&);
+template std::string why_so_deep(const SoftSetup<3>&);
 template class SoftEngine<2>;
 template class SoftEngine<3>;
 

@@ -39,6 +39,10 @@ struct SoftSetup : Surroundings<D> {
   ManyGrains many{};
 };
 
+/// What an overlap that is too deep comes from: a contact that a step passes over is not one that is too soft.
+template <int D>
+std::string why_so_deep(const SoftSetup<D>& setup);
+
 /// Time-step driven molecular dynamics of soft grains, thesis 2.1.1. A step:
 /// predict → neighbour list → contacts → forces → account → impacts → correct.
 ///
@@ -111,7 +115,6 @@ class SoftEngine final : public Engine {
   void look_again();
   std::vector<std::int32_t> places() const;
   void tilt();
-  std::string why_so_deep() const;
   void check_overlaps() const;
   void find_impacts();
   void remember_touching();

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "engines/kind/memory.hpp"
-#include "engines/soft/soft_engine.hpp"
+#include "engines/soft/clump_engine.hpp"
 
 namespace chute::soft {
 namespace {
@@ -55,6 +55,8 @@ std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const eng
   setup.deepest_overlap = method.deepest_overlap;
   setup.contact_time = setting.contact.impact(setting.reference()).contact_time;
   setup.threads = setting.useful_threads(threads, SoftMethod::grains_per_thread);
+  if (world.clumps.any())
+    return std::make_unique<ClumpEngine<D>>(std::move(world.grains), std::move(world.clumps), setup);
   return std::make_unique<SoftEngine<D>>(std::move(world.grains), setup);
 }
 
@@ -128,6 +130,7 @@ Offers SoftMethod::offers() const {
   return {.contacts = true,
           .impacts = true,
           .independent = true,
+          .clumps = true,
           .walls = true,
           .wall_shapes = true,
           .wall_motion = true,

@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "scene/scene.hpp"
+
+/// The forms of grains that are not round.
+namespace chute::scene {
+
+/// Those of [[grains.shape]]; empty where all grains are round.
+template <int D>
+std::vector<Clump<D>> forms_of(const Scene& scene);
+
+/// Which of them a grain has: drawn by the shares.
+std::size_t form_of(const Scene& scene, std::size_t grain);
+
+/// The orientation that a grain of that form begins with.
+template <int D>
+Orientation<D> first_orientation(const Scene& scene, std::size_t grain, const Clump<D>& form);
+
+/// What others must know of a form, in any dimension, for a grain of the volume of a sphere of radius 1. Empty where a shape
+/// cannot be: others are asked before that is told.
+struct FormSizes {
+  double reach = 1;     ///< of its farthest point from the centre of mass
+  double smallest = 1;  ///< radius of a sphere
+  double lightest = 1;  ///< see Clump
+};
+std::vector<FormSizes> sizes_of_forms(const Scene& scene);
+
+/// What of [[grains.shape]] cannot be, whatever the method.
+std::optional<Refusal> refusal_of_shapes(const Scene& scene);
+
+}  // namespace chute::scene
