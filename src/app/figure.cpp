@@ -155,7 +155,7 @@ figures::FigureTable make_table(const Recipe& recipe, const fs::path& file, cons
                       std::make_move_iterator(one.rows.end()));
   }
   for (const auto& data : recipe.data)
-    for (const auto& fit : data.fits) figures::draw_fit(fit, table);
+    for (const auto& fit : data.fits) figures::draw_fit(context.quick ? figures::quick_of(fit) : fit, table);
   for (const auto& data : recipe.data)
     for (const auto& ratio : data.ratios) figures::draw_ratio(ratio, table);
   return table;

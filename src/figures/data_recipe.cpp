@@ -35,6 +35,8 @@ static void describe(Archive& a, Curve& curve) {
   a.required("series", curve.series, "its name");
   a.value("set", curve.set, "key=value for its scene, on top of the recipe's");
   a.value("quick", curve.quick, "and with --quick");
+  a.value("after", curve.after,
+          "key=value: each run begins with what another, with these settings besides, ended with");
   a.value("runs", curve.runs, "instead of a scene: run directories that are there, relative to the recipe");
   a.check(curve.runs.empty() || curve.set.empty(), "set",
           "changes a scene; runs that are there cannot be changed");

@@ -54,9 +54,10 @@ struct Where {
 /// One series of one panel: which runs, and what is taken from them.
 struct Curve {
   std::string panel, series;
-  std::vector<std::string> set;                 ///< key=value, on top of the recipe's
-  std::vector<std::string> quick;               ///< and with --quick, on top of the recipe's `quick`
-  double length = 1;                            ///< L of a pile
+  std::vector<std::string> set;    ///< key=value, on top of the recipe's
+  std::vector<std::string> quick;  ///< and with --quick, on top of the recipe's `quick`
+  std::vector<std::string> after;  ///< the runs begin with the ends of runs that have these settings besides
+  double length = 1;               ///< L of a pile
   std::optional<std::vector<double>> collapse;  ///< [τ, D]: s^τ P(s) against s/L^D
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe

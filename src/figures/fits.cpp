@@ -123,6 +123,7 @@ static void describe_keys(Archive& a, Fit& fit) {
   a.value("legend", fit.legend, "the constants stand in the legend with their errors");
   a.value("factors", fit.factors, "power: of each series a factor F, for c x^k F^n");
   a.value("range", fit.range, "only points with x in [low, high]");
+  a.value("quick_range", fit.quick_range, "instead, of a quick figure");
 }
 void describe(KeyLister& a, Fit& fit) { describe_keys(a, fit); }
 void describe(TomlReader& a, Fit& fit) {
@@ -139,8 +140,10 @@ void describe(TomlReader& a, Fit& fit) {
   }
   a.check(fit.factors.empty() || (fit.form == Form::power && fit.factors.size() == fit.of.size()), "factors",
           "are of form = \"power\", one for each series of `of`");
-  a.check(!fit.range || (fit.range->size() == 2 && (*fit.range)[0] < (*fit.range)[1]), "range",
-          "must be [low, high] with low < high");
+  for (const auto& [key, range] :
+       {std::pair("range", &fit.range), std::pair("quick_range", &fit.quick_range)})
+    a.check(!*range || ((*range)->size() == 2 && (**range)[0] < (**range)[1]), key,
+            "must be [low, high] with low < high");
 }
 
 std::optional<Fitted> fit_law(const Fit& fit, const std::vector<FitPoint>& points) {
@@ -254,6 +257,11 @@ void draw_formula(const Fit& fit, const std::vector<FitPoint>& points, const std
 }
 
 }  // namespace
+
+Fit quick_of(Fit fit) {
+  if (fit.quick_range) fit.range = fit.quick_range;
+  return fit;
+}
 
 void draw_fit(const Fit& fit, FigureTable& table) {
   const auto points = points_of(fit, table);

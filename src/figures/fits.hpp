@@ -26,7 +26,8 @@ struct Fit {
   std::vector<std::string> start;  ///< NAME=VALUE, one for each parameter
   bool legend = false;             ///< the constants with their errors stand in the legend
   std::vector<double> factors;     ///< power: of each series a factor F, such as a size ratio: y = c x^k F^n
-  std::optional<std::vector<double>> range;  ///< only points with x in it, [low, high]
+  std::optional<std::vector<double>> range;        ///< only points with x in it, [low, high]
+  std::optional<std::vector<double>> quick_range;  ///< of a quick figure, where its flows are smaller
 };
 void describe(TomlReader& a, Fit& fit);
 void describe(KeyLister& a, Fit& fit);
@@ -69,5 +70,7 @@ std::optional<Fitted> fit_law(const Fit& fit, const std::vector<FitPoint>& point
 /// Adds a label of the legend with the constants, if that is asked for. Adds the law through the points of the table to it: a line over their range and a comment. Only a comment where the points
 /// are too few, or where factors tell series apart.
 void draw_fit(const Fit& fit, FigureTable& table);
+/// The same fit as a quick figure has it.
+Fit quick_of(Fit fit);
 
 }  // namespace chute::figures

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 
 #include "common/error.hpp"
@@ -32,33 +33,80 @@ struct Plan {
   std::vector<std::vector<std::size_t>> of_curve;
 };
 
-Plan plan_runs(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work, bool quick) {
-  const fs::path scene_file = recipe_file.parent_path() / *recipe.scene;
-  Plan plan;
-  std::map<std::string, std::size_t> known;
-  for (const auto& curve : recipe.curves) {
-    auto& needed = plan.of_curve.emplace_back();
-    if (quick && curve.full_only) continue;
-    for (std::int64_t seed = 1; seed <= (quick ? recipe.quick_seeds : recipe.seeds); ++seed) {
-      auto settings = recipe.set;
-      settings.insert(settings.end(), curve.set.begin(), curve.set.end());
-      if (quick)
-        for (const auto* cheaper : {&recipe.quick, &curve.quick})
-          settings.insert(settings.end(), cheaper->begin(), cheaper->end());
-      settings.push_back(fmt::format("seed={}", seed));
-      auto scene = scene::read_scene(scene_file, settings);
-      if (curve.extract != Extract::network) scene.drop_output("frames");  // other figures need none
-      const auto text = scene::to_toml(scene);
-      const auto [at, is_new] = known.try_emplace(text, plan.jobs.size());
-      if (is_new) {
-        plan.jobs.push_back({std::move(scene), work / fmt::format("{}-{}", scene_file.stem().string(),
-                                                                  hash_of(text).substr(0, 32))});
+/// The runs of one recipe as its curves ask for them.
+class Planner {
+ public:
+  Planner(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work, bool quick)
+      : recipe_(recipe), scene_file_(recipe_file.parent_path() / *recipe.scene), work_(work), quick_(quick) {}
+
+  /// The runs that others begin with. They must be there before those others are planned.
+  std::vector<Job> before() const {
+    std::vector<Job> jobs;
+    std::map<std::string, std::size_t> known;
+    for_runs([&](std::size_t c, std::int64_t seed) {
+      if (recipe_.curves[c].after.empty()) return;
+      auto job = job_before(recipe_.curves[c], seed);
+      if (known.try_emplace(job.directory.string(), jobs.size()).second) jobs.push_back(std::move(job));
+    });
+    return jobs;
+  }
+  Plan plan() const {
+    Plan plan;
+    plan.of_curve.resize(recipe_.curves.size());
+    std::map<std::string, std::size_t> known;
+    for_runs([&](std::size_t c, std::int64_t seed) {
+      const Curve& curve = recipe_.curves[c];
+      auto settings = settings_of(curve, seed);
+      if (!curve.after.empty()) {
+        for (const char* brought : {"grains.count=", "grains.diameter=", "grains.size_ratio="})
+          settings.emplace_back(brought);
+        settings.push_back(fmt::format("grains.start={{from='{}'}}",
+                                       fs::absolute(job_before(curve, seed).directory).string()));
       }
-      needed.push_back(at->second);
+      auto job = job_of(curve, settings);
+      const auto [at, is_new] = known.try_emplace(job.directory.string(), plan.jobs.size());
+      if (is_new) plan.jobs.push_back(std::move(job));
+      plan.of_curve[c].push_back(at->second);
+    });
+    return plan;
+  }
+
+ private:
+  const DataRecipe& recipe_;
+  fs::path scene_file_;
+  const fs::path& work_;
+  bool quick_;
+
+  template <class Visit>
+  void for_runs(const Visit& visit) const {
+    for (std::size_t c = 0; c < recipe_.curves.size(); ++c) {
+      if (quick_ && recipe_.curves[c].full_only) continue;
+      for (std::int64_t seed = 1; seed <= (quick_ ? recipe_.quick_seeds : recipe_.seeds); ++seed)
+        visit(c, seed);
     }
   }
-  return plan;
-}
+  std::vector<std::string> settings_of(const Curve& curve, std::int64_t seed) const {
+    auto settings = recipe_.set;
+    settings.insert(settings.end(), curve.set.begin(), curve.set.end());
+    if (quick_)
+      for (const auto* cheaper : {&recipe_.quick, &curve.quick})
+        settings.insert(settings.end(), cheaper->begin(), cheaper->end());
+    settings.push_back(fmt::format("seed={}", seed));
+    return settings;
+  }
+  Job job_of(const Curve& curve, const std::vector<std::string>& settings) const {
+    auto scene = scene::read_scene(scene_file_, settings);
+    if (curve.extract != Extract::network) scene.drop_output("frames");  // other figures need none
+    const auto text = scene::to_toml(scene);
+    return {std::move(scene),
+            work_ / fmt::format("{}-{}", scene_file_.stem().string(), hash_of(text).substr(0, 32))};
+  }
+  Job job_before(const Curve& curve, std::int64_t seed) const {
+    auto settings = settings_of(curve, seed);
+    settings.insert(settings.end(), curve.after.begin(), curve.after.end());
+    return job_of(curve, settings);
+  }
+};
 
 /// Does the runs that are not there yet, up to `count` side by side. The first error stops all.
 void run_all(const std::vector<Job>& jobs, int count, const std::string& command_line,
@@ -98,13 +146,23 @@ FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
 
 Work work_of(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work, bool quick) {
   Work found;
-  for (const auto& job : plan_runs(recipe, recipe_file, work, quick).jobs) {
+  const auto add = [&found](const Job& job) {
     ++found.runs;
     if (run::is_finished_run_of(job.directory, job.scene))
       ++found.there;
     else
       found.seconds += run::cost_of(job.scene);
-  }
+  };
+  const Planner planner(recipe, recipe_file, work, quick);
+  const auto before = planner.before();
+  std::ranges::for_each(before, add);
+  // What begins with the end of a run that is not there yet cannot be read; it is about as long as without.
+  const bool begun = std::ranges::all_of(
+      before, [](const Job& job) { return run::is_finished_run_of(job.directory, job.scene); });
+  auto alone = recipe;
+  for (auto& curve : alone.curves)
+    if (!begun) curve.after.clear();
+  std::ranges::for_each(Planner(alone, recipe_file, work, quick).plan().jobs, add);
   auto set = recipe.set;
   if (quick) set.insert(set.end(), recipe.quick.begin(), recipe.quick.end());
   const auto seeds = quick ? recipe.quick_seeds : recipe.seeds;
@@ -154,7 +212,9 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
                      const FigureContext& context, const std::string& command_line,
                      const std::function<bool(double)>& progress) {
   if (recipe.runs) return from_runs(recipe, recipe_file);
-  const Plan plan = plan_runs(recipe, recipe_file, work, context.quick);
+  const Planner planner(recipe, recipe_file, work, context.quick);
+  run_all(planner.before(), context.jobs, command_line, progress);
+  const Plan plan = planner.plan();
   run_all(plan.jobs, context.jobs, command_line, progress);
   FigureTable table;
   const auto seeds = context.quick ? recipe.quick_seeds : recipe.seeds;

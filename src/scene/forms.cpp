@@ -80,6 +80,8 @@ std::optional<Refusal> refusal_of_shapes(const Scene& scene) {
     return Refusal{"grains.independent", "only round grains can be told not to feel each other"};
   if (!grains.rotation)
     return Refusal{"grains.rotation", "grains that are not round turn when they are pushed"};
+  if (!scene.materials.empty())
+    return Refusal{"grains.shape", "grains that are not round are of one material: leave [[material]] out"};
   return {};
 }
 

@@ -568,7 +568,10 @@ World<D> make_world(const Scene& scene) {
     world.walls.push_back(make_wall<D>(wall));
     world.walls.back().surface.material = material_of(scene, wall.material);
   }
-  if (ground.smooth || !ground.beads.empty()) world.floor = -(scene.bed->diameter + d);
+  // Over the sides of a bed that ends there grains may fall as far as they like.
+  const bool endless = std::all_of(periods.length.begin(), periods.length.begin() + (D - 1),
+                                   [](double length) { return length > 0; });
+  if (endless && (ground.smooth || !ground.beads.empty())) world.floor = -(scene.bed->diameter + d);
   world.frame.dimensions = D;
   world.frame.bead_spacing = ground.spacing > 0 ? ground.spacing : d;
   world.frame.footprint = 1;

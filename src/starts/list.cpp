@@ -1,4 +1,5 @@
 #include "starts/from_file.hpp"
+#include "starts/pressed.hpp"
 #include "starts/scattered.hpp"
 #include "starts/square.hpp"
 
@@ -12,7 +13,7 @@ bool is_lattice(const std::string& word) { return word == Square::word || word =
 
 Catalogue<Start>& list() {
   static Catalogue<Start> all{kind_of<Start, Square>(), kind_of<Start, Alone>(), kind_of<Start, FromFile>(),
-                              kind_of<Start, Scattered>()};
+                              kind_of<Start, Scattered>(), kind_of<Start, Pressed>()};
   return all;
 }
 
