@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "scene/choose_contact.hpp"
+#include "scene/species.hpp"
 #include "scene/world.hpp"
 
 namespace chute::scene {
