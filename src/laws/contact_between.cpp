@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include "laws/contact_spec.hpp"
 
@@ -67,11 +68,12 @@ class Overlay {
 
   /// After the description: what is wrong. `law` names it.
   std::optional<Refusal> wrong(std::string_view law) {
+    const auto told = std::exchange(wrong_, {});  // may only follow from a number that the law has not
     for (const auto& [key, number] : own_.values)
       if (!known_.contains(key))
         tell(key, fmt::format("the law {} of [{}] has no such number; it has: {}", law, own_.table,
                               seen_.empty() ? "none" : fmt::format("{}", fmt::join(seen_, ", "))));
-    return wrong_;
+    return wrong_ ? wrong_ : told;
   }
 
  private:

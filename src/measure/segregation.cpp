@@ -92,13 +92,22 @@ class Segregation final : public Remembering<Segregation> {
     }
   }
 
+  /// Bed and walls have materials, too, that no moving grain is of.
+  std::vector<std::size_t> seen() const {
+    std::vector<std::size_t> kinds;
+    for (std::size_t k = 0; k < count(); ++k)
+      if (std::ranges::any_of(heights_, [k](const auto& row) { return std::isfinite(row[k]); }))
+        kinds.push_back(k);
+    return kinds;
+  }
+
   void write_series() const {
     struct Instant {
       std::size_t t;
     };
     Columns<Instant> columns;
     columns.add(std::string(run_.offers.clock), [this](const Instant& now) { return times_[now.t]; });
-    for (std::size_t k = 0; k < count(); ++k) {
+    for (const std::size_t k : seen()) {
       columns.add("index_" + run_.materials[k], [this, k](const Instant& now) { return indices_[now.t][k]; });
       columns.add("height_" + run_.materials[k],
                   [this, k](const Instant& now) { return heights_[now.t][k]; });
@@ -148,7 +157,7 @@ class Segregation final : public Remembering<Segregation> {
     }
     Columns<Row> columns;
     columns.add("h", &Row::h);
-    for (std::size_t k = 0; k < count(); ++k) {
+    for (const std::size_t k : seen()) {
       const auto& name = run_.materials[k];
       columns.add("grains_" + name, [k](const Row& row) { return row.of[k].grains; });
       columns.add_estimate("eta_" + name, [k](const Row& row) -> const Estimate& { return row.of[k].eta; });

@@ -18,9 +18,12 @@ std::vector<double> shares_of(const std::vector<MaterialSpec>& materials) {
 
 bool all_have_diameters(const std::vector<MaterialSpec>& materials) {
   const auto shares = shares_of(materials);
-  for (std::size_t k = 0; k < materials.size(); ++k)
+  bool any = false;
+  for (std::size_t k = 0; k < materials.size(); ++k) {
     if (shares[k] > 0 && !materials[k].diameter) return false;
-  return !materials.empty();
+    any = any || shares[k] > 0;
+  }
+  return any;
 }
 
 std::vector<int> draw_materials(const std::vector<MaterialSpec>& materials, std::size_t count,

@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "scene/choose_contact.hpp"
+#include "scene/species.hpp"
 #include "scene/world.hpp"
 
 namespace chute::scene {
@@ -274,7 +275,7 @@ static void check_output_count(const Scene& scene, const TomlReader& reader) {
 static void check_contacts(const Scene& scene, const engines::Setting& setting, const TomlReader& reader) {
   laws::check_contact_time(scene.contact, setting.reference(), reader);
   for (const auto& meeting : setting.meetings()) {
-    if (!meeting.own) continue;
+    if (!meeting.own || meeting.own->restitution == 0) continue;  // which only hard grains can have
     const auto impact = meeting.contact.impact(meeting.mean);
     if (!(impact.restitution > 0 && std::isfinite(impact.contact_time)))
       reader.fail(fmt::format("contact.between[{}]", meeting.place),

@@ -12,9 +12,6 @@ World<D> make_world(const Scene& scene);
 /// What a method may know of the scene besides its world.
 engines::Setting setting_of(const Scene& scene);
 
-/// What of its materials cannot be; all below wants it to be nothing.
-std::optional<Refusal> refusal_of_materials(const Scene& scene);
-
 /// What of the scene cannot be: a start that does not fit, a method that cannot do it, an observer that asks for more than
 /// the method gives.
 std::optional<Refusal> refusal_of(const Scene& scene);

@@ -233,6 +233,7 @@ class Columns(unittest.TestCase):
                  "output.velocities={every=0.01}", "output.diffusion={every=0.01, longest=0.2}", "output.beads={}",
                  "output.trapping={every=0.01}", "output.bed=true", "output.frames={every=0.1}"],
         "gas": ["hard-discs.toml", "run.duration=100", "output.pairs={every=10}"],
+        "mixture": ["mixture.toml", "run.duration=3", "output.frames={every=2}", "output.segregation={every=0.5}"],
         "pile": ["rice-pile.toml", "run.duration=2000"],
     }
 
