@@ -28,11 +28,11 @@ MomentumInStep momentum_in_step(Scheme scheme, const Grains<3>& bodies, const In
 
 Vec<4> unit(const Vec<4>& q) { return (1 / std::sqrt(dot(q, q))) * q; }
 
-/// dq/dt = ½ (0, ω) q
+/// dq/dt = ½ (0, ω) q = ½ q (0, Aᵀω)
 Vec<4> rate(const Clump<3>& clump, const Vec<4>& q, const Vec<3>& momentum) {
-  const Vec<4> unit_q = unit(q);
-  const Vec<3> spin = 0.5 * spin_of(clump, unit_q, momentum);
-  return quaternion_product({{0, spin[0], spin[1], spin[2]}}, q);
+  const Vec<3> own = turned_by(-q[0], {{q[1], q[2], q[3]}}, momentum, 1 / dot(q, q));
+  return quaternion_product(
+      q, {{0, 0.5 * clump.ease[0] * own[0], 0.5 * clump.ease[1] * own[1], 0.5 * clump.ease[2] * own[2]}});
 }
 
 Vec<4> runge_kutta(const Clump<3>& clump, const Vec<4>& q, const MomentumInStep& momentum, double dt) {

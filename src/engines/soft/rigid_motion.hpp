@@ -33,10 +33,14 @@ class RigidMotion {
   double dt_;
 };
 
+/// The vector v turned by q, which need not be a unit quaternion: over its square, 1 / `per_square`.
+inline Vec<3> turned_by(double w, const Vec<3>& u, const Vec<3>& v, double per_square = 1) {
+  const Vec<3> t = 2 * per_square * cross(u, v);
+  return v + w * t + cross(u, t);
+}
 /// The vector v of the body's frame as it lies in space.
 inline Vec<3> in_space(const Orientation<3>& q, const Vec<3>& v) {
-  const Vec<3> u{{q[1], q[2], q[3]}}, t = 2.0 * cross(u, v);
-  return v + q[0] * t + cross(u, t);
+  return turned_by(q[0], {{q[1], q[2], q[3]}}, v);
 }
 inline Vec<2> in_space(const Orientation<2>& angle, const Vec<2>& v) {
   const double c = std::cos(angle[0]), s = std::sin(angle[0]);
@@ -44,7 +48,7 @@ inline Vec<2> in_space(const Orientation<2>& angle, const Vec<2>& v) {
 }
 /// And back.
 inline Vec<3> in_body(const Orientation<3>& q, const Vec<3>& v) {
-  return in_space(Orientation<3>{{q[0], -q[1], -q[2], -q[3]}}, v);
+  return turned_by(-q[0], {{q[1], q[2], q[3]}}, v);
 }
 
 /// Velocity of a point at `arm` from the centre of mass, but for the centre's own.
@@ -60,18 +64,16 @@ inline Vec<3> leverage(const Vec<3>& arm, const Vec<3>& force) { return cross(ar
 inline Vec<1> spin_of(const Clump<2>&, const Orientation<2>&, const Vec<1>& momentum) { return momentum; }
 inline Vec<3> spin_of(const Clump<3>& clump, const Orientation<3>& q, const Vec<3>& momentum) {
   if (clump.spins_like_a_sphere()) return momentum;
-  const double mean = clump.mean_gyration();
   Vec<3> along = in_body(q, momentum);
-  for (int k = 0; k < 3; ++k) along[k] *= mean / clump.gyration[k];
+  for (int k = 0; k < 3; ++k) along[k] *= clump.ease[k];
   return in_space(q, along);
 }
 /// λ of a body that spins so.
 inline Vec<1> momentum_of(const Clump<2>&, const Orientation<2>&, const Vec<1>& spin) { return spin; }
 inline Vec<3> momentum_of(const Clump<3>& clump, const Orientation<3>& q, const Vec<3>& spin) {
   if (clump.spins_like_a_sphere()) return spin;
-  const double mean = clump.mean_gyration();
   Vec<3> along = in_body(q, spin);
-  for (int k = 0; k < 3; ++k) along[k] *= clump.gyration[k] / mean;
+  for (int k = 0; k < 3; ++k) along[k] /= clump.ease[k];
   return in_space(q, along);
 }
 
