@@ -1,5 +1,6 @@
 #pragma once
 #include "core/clump.hpp"
+#include "core/kernel.hpp"
 #include "engines/soft/integrator.hpp"
 
 namespace chute::soft {
@@ -20,21 +21,24 @@ namespace chute::soft {
 /// for places: c_0 dt²/2 times what the angular acceleration was off by.
 class RigidMotion {
  public:
-  RigidMotion(Scheme scheme, double time_step) : scheme_(scheme), dt_(time_step) {}
+  RigidMotion(Scheme scheme, double time_step, const Clumps<3>& clumps, Isa isa);
 
   /// Turns the bodies by a step, after a prediction.
-  void turn(Grains<3>& bodies, const Clumps<3>& clumps, const Integrator<3>& integrator, Part range) const;
+  void turn(Grains<3>& bodies, const Integrator<3>& integrator, Part range) const;
   /// Corrects it, before the correction of all else.
-  void correct(Grains<3>& bodies, const Clumps<3>& clumps, const GrainSums<3>& sums,
-               const Integrator<3>& integrator, Part range) const;
+  void correct(Grains<3>& bodies, const GrainSums<3>& sums, const Integrator<3>& integrator,
+               Part range) const;
 
  private:
   Scheme scheme_;
   double dt_;
+  Isa isa_;
+  std::array<Array, 3> ease_;  // of each body, see Clump
+  Array round_;                // 1 for those that spin like a sphere, else 0
 };
 
 /// The vector v turned by q, which need not be a unit quaternion: over its square, 1 / `per_square`.
-inline Vec<3> turned_by(double w, const Vec<3>& u, const Vec<3>& v, double per_square = 1) {
+[[gnu::always_inline]] inline Vec<3> turned_by(double w, const Vec<3>& u, const Vec<3>& v, double per_square = 1) {
   const Vec<3> t = 2 * per_square * cross(u, v);
   return v + w * t + cross(u, t);
 }
