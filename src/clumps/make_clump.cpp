@@ -70,7 +70,7 @@ template <int D>
 Clump<D> sphere() {
   Clump<D> clump;
   clump.members = {{{}, 1}};
-  for (int k = 0; k < turns<D>; ++k) clump.gyration[k] = 0.4;  // core/sphere.hpp
+  for (int k = 0; k < turns<D>; ++k) clump.gyration[k] = 0.4, clump.ease[k] = 1;  // core/sphere.hpp
   return clump;
 }
 
@@ -110,6 +110,7 @@ Clump<D> make_clump(std::span<const Sphere> spheres) {
     if (q.w() < 0) q.coeffs() *= -1;
     clump.written = {{q.w(), q.x(), q.y(), q.z()}};
   }
+  for (int k = 0; k < turns<D>; ++k) clump.ease[k] = clump.mean_gyration() / clump.gyration[k];
   clump.lightest = lightest(clump);
   return clump;
 }

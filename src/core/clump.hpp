@@ -20,6 +20,7 @@ template <int D>
 struct Clump {
   std::vector<Member<D>> members;
   Vec<turns<D>> gyration{};  ///< principal moments of inertia over the mass; 2/5 of a sphere
+  Vec<turns<D>> ease{};      ///< their mean over each of them: how readily it spins about that axis
   double reach = 1;          ///< of its farthest point from the centre of mass
   double radius = 1;         ///< 2D: of the disc that covers as much of the plane; in 3D always 1
   /// Effective mass at the contact where a push gives it most spin, over its mass; 1 of a sphere.

@@ -33,13 +33,13 @@ ClumpEngine<D>::ClumpEngine(Grains<D> bodies, Clumps<D> clumps, const SoftSetup<
       list_(setup.domain, setup.skins, setup.search, setup.isa),
       stages_(setup.domain, laws_of(setup.laws, setup.time_step), setup.isa, slip_rule(setup.scheme)),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa, false),
-      motion_(setup.scheme, setup.time_step),
       walls_(setup.surroundings(), setup.laws, setup.wall_laws, {setup.isa, slip_rule(setup.scheme)}),
       team_(std::make_unique<Team>(setup.threads)) {
   for (std::size_t i = 0; i < bodies_.moving; ++i) {
     const auto momentum = momentum_of(clumps_.of(i), bodies_.attitude(i), bodies_.turning(i));
     for (int k = 0; k < turns<D>; ++k) bodies_.spin[static_cast<std::size_t>(k)][i] = momentum[k];
   }
+  if constexpr (D == 3) motion_.emplace(setup.scheme, setup.time_step, clumps_, setup.isa);
   make_spheres();
   sphere_sums_.resize(spheres_.size());
   body_sums_.resize(bodies_.size());
@@ -162,14 +162,13 @@ template <int D>
 void ClumpEngine<D>::turn() {
   if constexpr (D == 3)
     team_->split(bodies_.moving,
-                 [&](Part range, std::size_t) { motion_.turn(bodies_, clumps_, integrator_, range); });
+                 [&](Part range, std::size_t) { motion_->turn(bodies_, integrator_, range); });
 }
 template <int D>
 void ClumpEngine<D>::correct_turn() {
   if constexpr (D == 3)
-    team_->split(bodies_.moving, [&](Part range, std::size_t) {
-      motion_.correct(bodies_, clumps_, body_sums_, integrator_, range);
-    });
+    team_->split(bodies_.moving,
+                 [&](Part range, std::size_t) { motion_->correct(bodies_, body_sums_, integrator_, range); });
 }
 
 template <int D>

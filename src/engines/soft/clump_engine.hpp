@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "core/clump.hpp"
 #include "engines/soft/rigid_motion.hpp"
@@ -55,7 +56,7 @@ class ClumpEngine final : public Engine {
   std::int64_t seen_list_ = -1;
   ContactStages<D> stages_;
   Integrator<D> integrator_;
-  RigidMotion motion_;
+  std::optional<RigidMotion> motion_;  // in 3D
   WallContacts<D> walls_;
   Contacts<D> contacts_;
   GrainSums<D> sphere_sums_, body_sums_;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/clump.hpp"
+#include "core/kernel.hpp"
 #include "engines/soft/integrator.hpp"
 
 namespace chute::soft {
@@ -20,23 +21,30 @@ namespace chute::soft {
 /// for places: c_0 dt²/2 times what the angular acceleration was off by.
 class RigidMotion {
  public:
-  RigidMotion(Scheme scheme, double time_step) : scheme_(scheme), dt_(time_step) {}
+  RigidMotion(Scheme scheme, double time_step, const Clumps<3>& clumps, Isa isa);
 
   /// Turns the bodies by a step, after a prediction.
-  void turn(Grains<3>& bodies, const Clumps<3>& clumps, const Integrator<3>& integrator, Part range) const;
+  void turn(Grains<3>& bodies, const Integrator<3>& integrator, Part range) const;
   /// Corrects it, before the correction of all else.
-  void correct(Grains<3>& bodies, const Clumps<3>& clumps, const GrainSums<3>& sums,
-               const Integrator<3>& integrator, Part range) const;
+  void correct(Grains<3>& bodies, const GrainSums<3>& sums, const Integrator<3>& integrator,
+               Part range) const;
 
  private:
   Scheme scheme_;
   double dt_;
+  Isa isa_;
+  std::array<Array, 3> ease_;  // of each body, see Clump
+  Array round_;                // 1 for those that spin like a sphere, else 0
 };
 
+/// The vector v turned by q, which need not be a unit quaternion: over its square, 1 / `per_square`.
+[[gnu::always_inline]] inline Vec<3> turned_by(double w, const Vec<3>& u, const Vec<3>& v, double per_square = 1) {
+  const Vec<3> t = 2 * per_square * cross(u, v);
+  return v + w * t + cross(u, t);
+}
 /// The vector v of the body's frame as it lies in space.
 inline Vec<3> in_space(const Orientation<3>& q, const Vec<3>& v) {
-  const Vec<3> u{{q[1], q[2], q[3]}}, t = 2.0 * cross(u, v);
-  return v + q[0] * t + cross(u, t);
+  return turned_by(q[0], {{q[1], q[2], q[3]}}, v);
 }
 inline Vec<2> in_space(const Orientation<2>& angle, const Vec<2>& v) {
   const double c = std::cos(angle[0]), s = std::sin(angle[0]);
@@ -44,7 +52,7 @@ inline Vec<2> in_space(const Orientation<2>& angle, const Vec<2>& v) {
 }
 /// And back.
 inline Vec<3> in_body(const Orientation<3>& q, const Vec<3>& v) {
-  return in_space(Orientation<3>{{q[0], -q[1], -q[2], -q[3]}}, v);
+  return turned_by(-q[0], {{q[1], q[2], q[3]}}, v);
 }
 
 /// Velocity of a point at `arm` from the centre of mass, but for the centre's own.
@@ -60,18 +68,16 @@ inline Vec<3> leverage(const Vec<3>& arm, const Vec<3>& force) { return cross(ar
 inline Vec<1> spin_of(const Clump<2>&, const Orientation<2>&, const Vec<1>& momentum) { return momentum; }
 inline Vec<3> spin_of(const Clump<3>& clump, const Orientation<3>& q, const Vec<3>& momentum) {
   if (clump.spins_like_a_sphere()) return momentum;
-  const double mean = clump.mean_gyration();
   Vec<3> along = in_body(q, momentum);
-  for (int k = 0; k < 3; ++k) along[k] *= mean / clump.gyration[k];
+  for (int k = 0; k < 3; ++k) along[k] *= clump.ease[k];
   return in_space(q, along);
 }
 /// λ of a body that spins so.
 inline Vec<1> momentum_of(const Clump<2>&, const Orientation<2>&, const Vec<1>& spin) { return spin; }
 inline Vec<3> momentum_of(const Clump<3>& clump, const Orientation<3>& q, const Vec<3>& spin) {
   if (clump.spins_like_a_sphere()) return spin;
-  const double mean = clump.mean_gyration();
   Vec<3> along = in_body(q, spin);
-  for (int k = 0; k < 3; ++k) along[k] *= clump.gyration[k] / mean;
+  for (int k = 0; k < 3; ++k) along[k] /= clump.ease[k];
   return in_space(q, along);
 }
 
