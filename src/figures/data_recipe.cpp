@@ -37,6 +37,8 @@ static void describe(Archive& a, Curve& curve) {
   a.value("quick", curve.quick, "and with --quick");
   a.value("after", curve.after,
           "key=value: each run begins with what another, with these settings besides, ended with");
+  a.value("threads", curve.threads, between(1, 1024),
+          "of each run; with engine.method = \"lammps\" processes");
   a.value("runs", curve.runs, "instead of a scene: run directories that are there, relative to the recipe");
   a.check(curve.runs.empty() || curve.set.empty(), "set",
           "changes a scene; runs that are there cannot be changed");

@@ -25,6 +25,7 @@ namespace {
 struct Job {
   scene::Scene scene;
   fs::path directory;
+  int threads = 1;
 };
 
 /// The runs of a recipe, each once, and which of them each curve needs.
@@ -98,8 +99,9 @@ class Planner {
     auto scene = scene::read_scene(scene_file_, settings);
     if (curve.extract != Extract::network) scene.drop_output("frames");  // other figures need none
     const auto text = scene::to_toml(scene);
-    return {std::move(scene),
-            work_ / fmt::format("{}-{}", scene_file_.stem().string(), hash_of(text).substr(0, 32))};
+    auto name = fmt::format("{}-{}", scene_file_.stem().string(), hash_of(text).substr(0, 32));
+    if (curve.threads > 1) name += fmt::format("-{}", curve.threads);  // the same numbers in another time
+    return {std::move(scene), work_ / name, static_cast<int>(curve.threads)};
   }
   Job job_before(const Curve& curve, std::int64_t seed) const {
     auto settings = settings_of(curve, seed);
@@ -116,6 +118,7 @@ void run_all(const std::vector<Job>& jobs, int count, const std::string& command
     run::RunOptions options;
     options.directory = jobs[k].directory;
     options.existing = run::Existing::replace;
+    options.threads = jobs[k].threads;
     options.command_line = command_line;
     options.progress = report;
     if (!run::run_scene(jobs[k].scene, options).finished) throw WorkError("stopped");
@@ -125,6 +128,13 @@ void run_all(const std::vector<Job>& jobs, int count, const std::string& command
 }  // namespace
 
 namespace {
+
+/// Is it about the time that runs take? Then each has the machine for itself.
+bool is_timed(const DataRecipe& recipe) {
+  return std::ranges::any_of(recipe.curves, [](const Curve& curve) {
+    return curve.extract == Extract::state && curve.column == "seconds";
+  });
+}
 
 /// The table of a recipe whose curves name runs that are there.
 FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
@@ -215,7 +225,7 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
   const Planner planner(recipe, recipe_file, work, context.quick);
   run_all(planner.before(), context.jobs, command_line, progress);
   const Plan plan = planner.plan();
-  run_all(plan.jobs, context.jobs, command_line, progress);
+  run_all(plan.jobs, is_timed(recipe) ? 1 : context.jobs, command_line, progress);
   FigureTable table;
   const auto seeds = context.quick ? recipe.quick_seeds : recipe.seeds;
   table.comments = {fmt::format("x: {}", recipe.x), fmt::format("y: {}", recipe.y)};

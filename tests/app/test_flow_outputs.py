@@ -1,0 +1,191 @@
+"""Averages across a channel, over the height in time, and the count of what ran out, against the frames of the same run:
+test_flow_outputs.py CHUTE. And starts that are pressed."""
+import csv
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+chute = sys.argv[1]
+
+SCENE = """
+title = "Spheres beside one wall run out over the edge of their bed"
+units = "reduced"
+dimensions = 3
+seed = 3
+[incline]
+angle = "30 deg"
+[domain]
+periodic = ["x"]
+size = [6, 5]
+[bed]
+kind = "lattice"
+arrangement = "square"
+count = 6
+count_across = 5
+[[wall]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+[grains]
+count = 60
+diameter = { mean = 1.0, std = 0.05 }
+start = { lattice = "square", spacing = 1.2, velocity = 1.0, spread = 0.5 }
+[contact.normal]
+law = "spring-dashpot"
+stiffness = 1e3
+restitution = 0.6
+[contact.tangential]
+law = "coulomb-viscous"
+viscosity = 10
+friction = 0.5
+[engine]
+method = "soft"
+[run]
+duration = 4
+[output]
+frames = { every = 0.5 }
+series = { every = 0.5 }
+across = { from = 1, bin = 0.8, above = 0.2, every = 0.5 }
+history = { every = 1, bin = 1, samples = 2 }
+discharge = { every = 0.5, below = 0.3 }
+"""
+
+SHEAR = """
+title = "Discs pressed between two heights"
+units = "reduced"
+seed = 5
+[incline]
+angle = "0 deg"
+gravity = 0
+[bed]
+kind = "row"
+count = 12
+[[wall]]
+point = [0, 8]
+normal = [0, -1]
+[grains]
+count = 91
+diameter = { mean = 1.0, std = 0.1 }
+start = { kind = "pressed", low = 0.5, high = 8 }
+[contact.normal]
+law = "spring-dashpot"
+stiffness = 1e4
+restitution = 0.6
+[contact.tangential]
+law = "coulomb-viscous"
+viscosity = 10
+friction = 0.5
+[engine]
+method = "soft"
+[run]
+duration = 0.01
+[output]
+frames = { every = 0.01 }
+series = { every = 0.01 }
+"""
+
+
+def table(path):
+    with open(path, encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def run(folder, scene, *more):
+    path = os.path.join(folder, "scene.toml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(scene)
+    subprocess.run([chute, "run", path, "-o", os.path.join(folder, "run"), "--quiet", *more], check=True)
+    return os.path.join(folder, "run")
+
+
+def frames(folder, at):
+    """Moving grains of each frame."""
+    to = os.path.join(folder, "csv")
+    subprocess.run([chute, "convert", at, "--to", "csv", "-o", to], check=True, capture_output=True)
+    return [[g for g in table(os.path.join(to, name)) if float(g["type"]) == 1] for name in sorted(os.listdir(to))]
+
+
+class FlowOutputs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+        cls.at = run(cls.folder, SCENE)
+        cls.frames = frames(cls.folder, cls.at)
+
+    def near(self, told, true, what):
+        self.assertAlmostEqual(float(told), true, delta=1e-9 * (1 + abs(true)), msg=what)
+
+    def test_discharge_counts_what_lies_below(self):
+        rows = table(os.path.join(self.at, "discharge.csv"))
+        self.assertEqual(len(rows), len(self.frames))
+        for row, grains in zip(rows, self.frames):
+            out = [g for g in grains if float(g["z"]) < 0.3]
+            self.assertEqual(float(row["out"]), len(out))
+            self.near(row["out_mass"], sum(float(g["mass"]) for g in out), "mass")
+        self.assertGreater(float(rows[-1]["out"]), 5, "nothing ran out, so that this tests nothing")
+
+    def test_across_is_the_mean_of_strips(self):
+        strips = {}
+        looks = self.frames[2:]  # from t = 1
+        for grains in looks:
+            for g in grains:
+                if float(g["z"]) >= 0.2:
+                    strips.setdefault(math.floor(float(g["y"]) / 0.8), []).append(g)
+        rows = table(os.path.join(self.at, "across.csv"))
+        self.assertEqual(len(rows), len(strips))
+        for row, strip in zip(rows, sorted(strips)):
+            inside = strips[strip]
+            self.near(row["y"], (strip + 0.5) * 0.8, "y")
+            self.near(row["grains"], len(inside) / len(looks), "grains")
+            T = 0
+            for axis in "xyz":
+                v = [float(g["velocity_" + axis]) for g in inside]
+                mean = sum(v) / len(v)
+                self.near(row["v_" + axis], mean, "v_" + axis)
+                T += sum((u - mean) ** 2 for u in v) / len(v) / 3
+            self.near(row["temperature"], T, "temperature")
+
+    def test_history_averages_over_its_looks(self):
+        rows = table(os.path.join(self.at, "history.csv"))
+        for time, looks in ((0, self.frames[:1]), (2, self.frames[3:5]), (4, self.frames[7:9])):
+            layers = {}
+            for grains in looks:
+                for g in grains:
+                    if float(g["z"]) >= 0:
+                        layers.setdefault(math.floor(float(g["z"])), []).append(float(g["velocity_x"]))
+            told = [r for r in rows if abs(float(r["time"]) - time) < 1e-6]
+            self.assertEqual([float(r["h"]) for r in told], [h + 0.5 for h in sorted(layers)])
+            for row in told:
+                v = layers[math.floor(float(row["h"]))]
+                mean = sum(v) / len(v)
+                self.near(row["grains"], len(v) / len(looks), "grains")
+                self.near(row["v_x"], mean, "v_x")
+                self.near(row["sigma_x"], math.sqrt(sum((u - mean) ** 2 for u in v) / len(v)), "sigma_x")
+
+    def test_a_longer_run_has_the_same_tables(self):
+        with tempfile.TemporaryDirectory() as folder:
+            at = run(folder, SCENE, "--set", "run.duration=2.5")
+            subprocess.run([chute, "run", at, "--resume", "--quiet", "--set", "run.duration=4"], check=True)
+            for name in ("history.csv", "discharge.csv"):
+                self.assertEqual(table(os.path.join(at, name)), table(os.path.join(self.at, name)), name)
+
+    def test_pressed_grains_are_dense_and_apart(self):
+        with tempfile.TemporaryDirectory() as folder:
+            grains = frames(folder, run(folder, SHEAR))[0]
+        places = [(float(g["x"]), float(g["y"]), float(g["radius"])) for g in grains]
+        self.assertEqual(len(places), 91)
+        self.assertGreater(sum(math.pi * r * r for _, _, r in places) / (12 * 7.5), 0.75)
+        for k, (x, y, r) in enumerate(places):
+            self.assertGreaterEqual(y - r, 0.5 - 1e-9)
+            self.assertLessEqual(y + r, 8 + 1e-9)
+            for u, v, s in places[:k]:
+                dx = (x - u + 6) % 12 - 6
+                self.assertGreater(math.hypot(dx, y - v), (r + s) - 1.1e-3 * min(r, s))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
