@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
+#include "core/sphere.hpp"
 
 namespace chute::scene {
 namespace {
@@ -85,9 +86,29 @@ std::optional<Refusal> refusal_of_shapes(const Scene& scene) {
   return {};
 }
 
+double widest_reach(const std::vector<FormSizes>& forms) {
+  double reach = 1;
+  for (const auto& form : forms) reach = std::max(reach, form.reach);
+  return reach;
+}
+
+template <int D>
+void add_clump(const Scene& scene, const Vec<D>& place, double reach, World<D>& world) {
+  const std::size_t i = world.grains.size(), form = form_of(scene, i);
+  const Clump<D>& clump = world.clumps.forms[form];
+  const double scale = reach / clump.reach, mass = sphere_mass(scene.grains.density, scale);
+  world.grains.add(place, scale * clump.radius, mass, clump.inertia(mass, scale), true);
+  const auto orientation = first_orientation(scene, i, clump);
+  for (int k = 0; k < orientation_numbers<D>; ++k) world.grains.orientation[k].back() = orientation[k];
+  world.clumps.form.push_back(static_cast<int>(form));
+  world.clumps.scale.push_back(scale);
+}
+
 template std::vector<Clump<2>> forms_of(const Scene&);
 template std::vector<Clump<3>> forms_of(const Scene&);
 template Orientation<2> first_orientation(const Scene&, std::size_t, const Clump<2>&);
 template Orientation<3> first_orientation(const Scene&, std::size_t, const Clump<3>&);
+template void add_clump(const Scene&, const Vec<2>&, double, World<2>&);
+template void add_clump(const Scene&, const Vec<3>&, double, World<3>&);
 
 }  // namespace chute::scene

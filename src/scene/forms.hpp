@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/world.hpp"
 #include "scene/scene.hpp"
 
 /// The forms of grains that are not round.
@@ -25,6 +26,13 @@ struct FormSizes {
   double lightest = 1;  ///< see Clump
 };
 std::vector<FormSizes> sizes_of_forms(const Scene& scene);
+
+/// How much room a grain takes to either side at the start, over the radius of the sphere of its volume.
+double widest_reach(const std::vector<FormSizes>& forms);
+
+/// Adds a grain that is not round, for which the start has left room to `reach` on all sides.
+template <int D>
+void add_clump(const Scene& scene, const Vec<D>& place, double reach, World<D>& world);
 
 /// What of [[grains.shape]] cannot be, whatever the method.
 std::optional<Refusal> refusal_of_shapes(const Scene& scene);

@@ -57,13 +57,6 @@ Periods periods_of(const Scene& scene, const beds::Ground& ground) {
   return periods;
 }
 
-/// How much room a grain takes to either side at the start, over the radius of the sphere of its volume.
-double widest_reach(const std::vector<FormSizes>& forms) {
-  double reach = 1;
-  for (const auto& form : forms) reach = std::max(reach, form.reach);
-  return reach;
-}
-
 /// A start lays grains that are not round as if they were as round as they are long.
 starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const Periods& periods) {
   const auto forms = sizes_of_forms(scene);
@@ -406,23 +399,6 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
   }
   return method.refusal(setting);
 }
-
-namespace {
-
-/// A grain that is not round, for which the start has left room to `reach` on all sides.
-template <int D>
-void add_clump(const Scene& scene, const Vec<D>& place, double reach, World<D>& world) {
-  const std::size_t i = world.grains.size(), form = form_of(scene, i);
-  const Clump<D>& clump = world.clumps.forms[form];
-  const double scale = reach / clump.reach, mass = sphere_mass(scene.grains.density, scale);
-  world.grains.add(place, scale * clump.radius, mass, clump.inertia(mass, scale), true);
-  const auto orientation = first_orientation(scene, i, clump);
-  for (int k = 0; k < orientation_numbers<D>; ++k) world.grains.orientation[k].back() = orientation[k];
-  world.clumps.form.push_back(static_cast<int>(form));
-  world.clumps.scale.push_back(scale);
-}
-
-}  // namespace
 
 template <int D>
 World<D> make_world(const Scene& scene) {
