@@ -343,7 +343,7 @@ std::vector<std::pair<std::string, double>> ClumpEngine<D>::tells() const {
     if (pair != before) touched += both ? 2 : 1;
     before = pair;
   }
-  return {{"coordination", static_cast<double>(touched) / static_cast<double>(bodies_.moving)}};
+  return {{"partners", static_cast<double>(touched) / static_cast<double>(bodies_.moving)}};
 }
 
 /// As SoftEngine: what contacts remember is from the predicted places, and must not see the corrected ones.

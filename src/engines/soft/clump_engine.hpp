@@ -30,7 +30,7 @@ class ClumpEngine final : public Engine {
   EnergyAccount energy() const override;
   /// Of bodies: two of them may touch in several places.
   std::vector<Contact> contacts() const override;
-  /// `coordination`: how many others a grain touches on average, whether grains, beads or walls, in however many places.
+  /// `partners`: how many others a grain touches on average, whether grains, beads or walls, in however many places.
   std::vector<std::pair<std::string, double>> tells() const override;
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
