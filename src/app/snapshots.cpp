@@ -123,6 +123,10 @@ TimedFrames timed_frames(const std::vector<std::string>& sources, const read::Me
 
 replay::Snapshot snapshot_of(const read::FrameFile& file, const FileSays& says) {
   const auto frame = read::parse_frame(read::read_files(file), says.meanings);
+  if (frame.own && frame.find(fields::body.name))
+    throw InputError(
+        fmt::format("{}: its grains are not round: let the run measure them, by [output] of its scene",
+                    file.path.string()));
   replay::Snapshot shot;
   shot.name = file.path.string();
   shot.time = frame.time ? frame.time : file.time;

@@ -111,6 +111,9 @@ std::vector<TableText> all_tables() {
         column("acceptance", none, "share of trial moves that were made"),
         column("trial_length", none, "δ, in mean diameters"),
         column("coordination", none, "contacts of a grain"),
+        column(
+            "partners", none,
+            "how many others a grain that is not round touches: grains, beads, walls, each in however many places"),
         column("events", none, "rolls and drops of a grain in the last shake"),
         column("loosened_fraction", none,
                "φ after the moves at random, before grains were laid, in the last shake"),
@@ -311,7 +314,10 @@ std::vector<TableText> all_tables() {
                "anticlockwise in the plane: < 0 when rolling downhill (omega in tables is > 0 then)"),
         column("angle", angle, "turned since the start, anticlockwise"),
         column("orientation", none, "in space: quaternion w, x, y, z"),
-        column("force", force, "sum of all contact forces and gravity")}},
+        column("force", force, "sum of all contact forces and gravity"),
+        column(
+            "body", none,
+            "where grains are not round and the points are their spheres: the grain, as contacts name it")}},
       {"contacts/*.vtp",
        "a contact, a line between the centres of a and b",
        "",

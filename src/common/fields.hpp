@@ -42,7 +42,7 @@ inline constexpr Field rolling{"rolling", "rolling", "", "", false};  ///< 1: ro
 inline constexpr Field bead{"bead", "bead", "", "", false};           ///< id of the grain that was hit
 inline constexpr Field grain{"grain", "grain", "", "", false};        ///< id of the grain that hit
 
-inline constexpr std::array grain_fields{id,    type,        radius, mass,    velocity, angular_velocity,
+inline constexpr std::array grain_fields{id,    type,        radius, mass,     velocity, angular_velocity,
                                          angle, orientation, force,  material, body};
 
 // Contacts: one line each in contacts/NNNNNN.vtp, between the centres of a and b

@@ -17,7 +17,7 @@ FigureTable compute_fig_3_02(const FigureContext& context);   ///< F_n(t)
 FigureTable compute_fig_3_10(const FigureContext& context);   ///< the pushed cylinder's forces
 FigureTable compute_table_3_1(const FigureContext& context);  ///< its steady state
 
-FigureTable compute_fig_b_11(const FigureContext& context);   ///< a free top (free_top.hpp)
+FigureTable compute_fig_b_11(const FigureContext& context);  ///< a free top (free_top.hpp)
 
 /// All of them, by id: `fig-3-01`, `table-3-1`.
 const std::map<std::string, std::function<FigureTable(const FigureContext&)>>& computed_figures();

@@ -40,6 +40,8 @@ vtkDataArray* array_of(vtkDataSet* data, const fields::Field& field, int compone
 std::vector<GrainRecord> records_of(vtkDataSet* data, const std::string& name) {
   auto* radius = data ? array_of(data, fields::radius, 1) : nullptr;
   if (!radius) throw InputError(name + ": no grains: its points have no array radius");
+  if (array_of(data, fields::body, 1) && data->GetFieldData()->HasArray(std::string(fields::units).c_str()))
+    throw InputError(name + ": its grains are not round; only round ones can be started from");
   auto *type = array_of(data, fields::type, 1), *mass = array_of(data, fields::mass, 1),
        *velocity = array_of(data, fields::velocity, 3), *spin = array_of(data, fields::angular_velocity, 3),
        *angle = array_of(data, fields::angle, 1), *orientation = array_of(data, fields::orientation, 4),

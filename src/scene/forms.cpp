@@ -27,7 +27,7 @@ std::vector<FormSizes> sizes_of(const std::vector<Clump<D>>& forms) {
   std::vector<FormSizes> sizes;
   for (const auto& form : forms) {
     const auto smallest = std::ranges::min_element(form.members, {}, &Member<D>::radius);
-    sizes.push_back({form.reach, smallest->radius, form.lightest});
+    sizes.push_back({form.reach, smallest->radius, form.lightest, std::ssize(form.members)});
   }
   return sizes;
 }

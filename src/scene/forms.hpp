@@ -24,6 +24,7 @@ struct FormSizes {
   double reach = 1;     ///< of its farthest point from the centre of mass
   double smallest = 1;  ///< radius of a sphere
   double lightest = 1;  ///< see Clump
+  std::int64_t spheres = 1;
 };
 std::vector<FormSizes> sizes_of_forms(const Scene& scene);
 

@@ -214,7 +214,7 @@ engines::Setting setting_of(const Scene& scene) {
     s.fastest = std::hypot(start->velocity, start->velocity_up) + farthest * start->spread;
   }
 
-  const bool many = s.grains > 1 && !s.independent, beads = !ground.beads.empty();
+  const bool many = sizes.count > 1 && !s.independent, beads = !ground.beads.empty();
   const double r = s.bead_diameter / 2;
   const auto with_bed = [&](double R, double mass) {
     return ground.smooth ? laws::Pair(mass, R) : laws::Pair(mass, R * r / (R + r));
@@ -234,6 +234,11 @@ engines::Setting setting_of(const Scene& scene) {
   const auto forms = sizes_of_forms(scene);
   for (const auto& form : forms)
     if (form.lightest < (light ? light->lightest : 1)) light = &form;
+  if (!forms.empty()) {  // what there is to do: their spheres
+    s.grains = 0;
+    for (std::int64_t i = 0; i < sizes.count; ++i)
+      s.grains += forms[form_of(scene, static_cast<std::size_t>(i))].spheres;
+  }
   if (light) {
     const double m_tip = light->lightest * sphere_mass(scene.grains.density, sizes.smallest),
                  R_tip = light->smallest * sizes.smallest;

@@ -228,3 +228,33 @@ TEST_CASE("A trail leads to where a grain was, through the periodic ends") {
   CHECK(wrapped.pixel(100 + 48, 99)[3] == 0);
   CHECK(wrapped.pixel(100 + static_cast<int>(48 * 1.85), 99)[3] > 0);
 }
+
+// Two discs that overlap by a half, as one grain: in one colour, with a rim around both and none within; as two grains the second's
+// rim crosses the first.
+TEST_CASE("Discs of one body are drawn as one") {
+  auto style = bare(200);
+  style.spin = false, style.background = view::Background::transparent;
+  auto frame = grains::one_disc();
+  frame.own = true;
+  frame.x[0] = -0.5;
+  grains::add(frame, 0.5, 0, 0, 1, 2);
+  read::PointArray body{"body", 1, {7, 7}};
+  frame.arrays.push_back(body);
+  const double unit = 0.96 * style.width / 4;
+  const auto across =
+      [&](const image::Image&
+              image) {  // how many pixels of the middle line, inside, differ from the middle's
+        int differ = 0;
+        for (int x = 100 - static_cast<int>(1.3 * unit); x < 100 + static_cast<int>(1.3 * unit); ++x)
+          differ += std::abs(image.pixel(x, 100)[1] - image.pixel(100, 100)[1]) > 3;
+        return differ;
+      };
+  const auto one = picture(frame, style);
+  CHECK(across(one) == 0);
+  const double lens = 2 * std::numbers::pi / 3 - std::sqrt(3.0) / 2;
+  CHECK(blob(one).area == Approx((2 * std::numbers::pi - lens) * unit * unit).epsilon(2e-3));
+  CHECK(std::abs(one.pixel(100 + static_cast<int>(1.49 * unit), 100)[1] - one.pixel(100, 100)[1]) >
+        20);  // the rim
+  frame.arrays.back().values[1] = 8;
+  CHECK(across(picture(frame, style)) > 0);
+}

@@ -6,6 +6,7 @@
 #include <cereal/types/array.hpp>
 #include <cereal/types/vector.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
@@ -40,6 +41,8 @@ ClumpEngine<D>::ClumpEngine(Grains<D> bodies, Clumps<D> clumps, const SoftSetup<
     for (int k = 0; k < turns<D>; ++k) bodies_.spin[static_cast<std::size_t>(k)][i] = momentum[k];
   }
   if constexpr (D == 3) motion_.emplace(setup.scheme, setup.time_step, clumps_, setup.isa);
+  numbers_.resize(bodies_.size());
+  std::iota(numbers_.begin(), numbers_.end(), 0);
   make_spheres();
   sphere_sums_.resize(spheres_.size());
   body_sums_.resize(bodies_.size());
@@ -261,7 +264,9 @@ Vec<turns<D>> ClumpEngine<D>::angular_momentum() const {
 
 template <int D>
 GrainsView ClumpEngine<D>::grains() const {
-  return view_of(state(), body_sums_.force, setup_.domain, time());
+  auto view = view_of(state(), body_sums_.force, setup_.domain, time());
+  view.fields.push_back({{&fields::body, FieldKind::scalar, false, false}, {}, numbers_});
+  return view;
 }
 
 template <int D>
@@ -343,7 +348,7 @@ std::vector<std::pair<std::string, double>> ClumpEngine<D>::tells() const {
     if (pair != before) touched += both ? 2 : 1;
     before = pair;
   }
-  return {{"coordination", static_cast<double>(touched) / static_cast<double>(bodies_.moving)}};
+  return {{"partners", static_cast<double>(touched) / static_cast<double>(bodies_.moving)}};
 }
 
 /// As SoftEngine: what contacts remember is from the predicted places, and must not see the corrected ones.

@@ -22,7 +22,7 @@ class ClumpEngine final : public Engine {
 
   std::int64_t step() const override { return step_; }
   double time_step() const override { return setup_.time_step; }
-  /// The bodies. Their `inertia` is that about the axis that they spin about now, so that ½ Iω² is their energy.
+  /// The bodies, with the array `body`, which tells whoever reads them that they are not round. Their `inertia` is that about the axis that they spin about now, so that ½ Iω² is their energy.
   GrainsView grains() const override;
   /// The spheres, with the array `body`. They have the velocity and the spin of their body, and parts of its mass, by their
   /// volumes: sums over them are momenta and energies of translation of the bodies.
@@ -30,7 +30,7 @@ class ClumpEngine final : public Engine {
   EnergyAccount energy() const override;
   /// Of bodies: two of them may touch in several places.
   std::vector<Contact> contacts() const override;
-  /// `coordination`: how many others a grain touches on average, whether grains, beads or walls, in however many places.
+  /// `partners`: how many others a grain touches on average, whether grains, beads or walls, in however many places.
   std::vector<std::pair<std::string, double>> tells() const override;
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
@@ -48,6 +48,7 @@ class ClumpEngine final : public Engine {
   Grains<D> bodies_;                // `spin` is λ of RigidMotion
   Grains<D> spheres_;               // those of the bodies, one body after the other, then the bed
   std::vector<std::size_t> first_;  // sphere of each body, and the end
+  std::vector<int> numbers_;        // 0, 1, 2 …: of the bodies
   std::vector<int> body_;           // of each sphere; beads of the bed are bodies, too
   std::array<Array, D> at_,
       arm_;  // of the spheres, from the centre of mass: in the body's frame, and in space

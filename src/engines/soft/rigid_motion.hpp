@@ -38,7 +38,8 @@ class RigidMotion {
 };
 
 /// The vector v turned by q, which need not be a unit quaternion: over its square, 1 / `per_square`.
-[[gnu::always_inline]] inline Vec<3> turned_by(double w, const Vec<3>& u, const Vec<3>& v, double per_square = 1) {
+[[gnu::always_inline]] inline Vec<3> turned_by(double w, const Vec<3>& u, const Vec<3>& v,
+                                               double per_square = 1) {
   const Vec<3> t = 2 * per_square * cross(u, v);
   return v + w * t + cross(u, t);
 }
