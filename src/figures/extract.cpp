@@ -231,7 +231,13 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
     const auto error = curve.column + "_err";
     const auto err = table.has(error) ? table.column(error) : std::vector<double>(x.size(), NAN);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (tells[i] && std::isfinite(y[i])) at[x[i]].y.push_back(y[i]), at[x[i]].err.push_back(err[i]);
+      if (tells[i] && std::isfinite(y[i])) {
+        // Times are steps times the step, which is each run's own: the same instant differs in its last digits.
+        const double same = 1e-9 * (1 + std::abs(x[i]));
+        const auto near = at.lower_bound(x[i] - same);
+        auto& values = near != at.end() && near->first <= x[i] + same ? near->second : at[x[i]];
+        values.y.push_back(y[i]), values.err.push_back(err[i]);
+      }
   }
   std::vector<FigureRow> rows;
   for (const auto& [x, values] : at) {
