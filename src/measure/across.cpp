@@ -20,7 +20,7 @@ struct StripSums {
   }
 };
 
-/// Strips count from y = 0 to both sides: 0, −1, 1, −2 …, so that they need no bounds and those that are far are new ones at
+/// Strips count from 0 to both sides: 0, −1, 1, −2 …, so that they need no bounds and those that are far are new ones at
 /// the end.
 std::size_t index_of_strip(double strip) {
   return static_cast<std::size_t>(strip >= 0 ? 2 * strip : -2 * strip - 1);
@@ -30,11 +30,12 @@ double strip_of_index(std::size_t index) {
   return index % 2 == 0 ? half : -half;
 }
 
-/// Mean velocity and temperature of strips along the flow, side by side across it.
+/// Mean velocity and temperature of strips, side by side across the flow or one behind the other.
 class Across final : public Remembering<Across> {
  public:
   Across(const RunContext& run, const AcrossSpec& spec)
       : run_(run),
+        axis_(spec.axis == StripAxis::x ? Frame::downhill : Frame::lateral),
         from_(spec.from),
         bin_(spec.bin),
         above_(spec.above),
@@ -48,7 +49,7 @@ class Across final : public Remembering<Across> {
     auto& strips = blocks_.sample(grains.time);
     for (std::size_t i = 0; i < grains.moving; ++i) {
       if (grains.position[run_.frame.normal()][i] < above_) continue;
-      const double strip = std::floor(grains.position[Frame::lateral][i] / bin_);
+      const double strip = std::floor(grains.position[axis_][i] / bin_);
       if (!(std::abs(strip) < most_layers / 2.0)) continue;
       const std::size_t at = index_of_strip(strip);
       if (at >= strips.size()) strips.resize(at + 1);
@@ -75,21 +76,23 @@ class Across final : public Remembering<Across> {
       if (row.grains == 0) continue;
       for (std::size_t k = 0; k < 3; ++k)
         row.v[k] = estimate([k](const StripSums& s, double) { return s.v[k] / s.count; });
-      row.temperature = estimate([](const StripSums& s, double) {
+      row.temperature = estimate([this](const StripSums& s, double) {
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) sum += s.v2[k] / s.count - std::pow(s.v[k] / s.count, 2);
-        return std::max(0.0, sum) / 3;
+        return std::max(0.0, sum) / run_.frame.dimensions;
       });
       rows.push_back(row);
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.y < b.y; });
     Columns<Row> columns;
-    columns.add("y", &Row::y).add("grains", &Row::grains);
-    for (std::size_t k = 0; k < 3; ++k)
+    columns.add(axis_names[axis_], &Row::y).add("grains", &Row::grains);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(run_.frame.dimensions); ++k)
       columns.add_estimate(std::string("v_") + axis_names[k],
                            [k](const Row& row) -> const Estimate& { return row.v[k]; });
     columns.add("temperature", &Row::temperature);
-    auto comments = run_.comments("averages over strips along the flow, across it");
+    auto comments =
+        run_.comments(axis_ == Frame::downhill ? "averages over strips across the flow, one behind the other"
+                                               : "averages over strips along the flow, side by side");
     for (auto& note : run_.average_note(from_, flow)) comments.push_back(std::move(note));
     run_.write("across.csv", columns.csv(comments, rows));
   }
@@ -100,6 +103,7 @@ class Across final : public Remembering<Across> {
 
  private:
   const RunContext& run_;
+  std::size_t axis_;
   From from_;
   double bin_, above_;
   Schedule due_;

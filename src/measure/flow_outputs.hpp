@@ -5,25 +5,32 @@
 /// channel, over the height as time goes on, and the number beyond a plane.
 namespace chute::measure {
 
+/// Which way strips lie side by side: across the flow, or along it one behind the other.
+enum class StripAxis { y, x };
+
 struct AcrossSpec {
+  StripAxis axis = StripAxis::y;
   From from = 0;
   double bin = 0, above = 0;
   std::optional<double> every;
 };
 template <class Archive>
 void describe(Archive& a, AcrossSpec& spec) {
+  using namespace std::string_view_literals;
+  a.choice("axis", spec.axis, std::array{"y"sv, "x"sv},
+           "y: strips along the flow, side by side (3D); x: strips across it, one behind the other");
   a.number_or_word("from", spec.from, "steady", non_negative,
                    "averages begin; \"steady\": when the flow settled");
-  a.value("bin", spec.bin, non_negative, "width of a strip along the flow; default a bead's diameter");
+  a.value("bin", spec.bin, non_negative, "width of a strip; default a bead's diameter");
   a.value("above", spec.above, "only grains above this height count");
   a.value("every", spec.every, positive, "time between samples; default 0.02 √(d/g)");
 }
-/// [output.across]: of flows in space.
+/// [output.across]
 class AcrossOutput final : public TableOutput<AcrossOutput, AcrossSpec> {
  public:
   static constexpr std::string_view word = "across",
-                                    text = "averages over strips along the flow, across a channel (3D)";
-  Needs needs() const override { return {.space = true}; }
+                                    text = "averages over strips, across a channel or along it";
+  Needs needs() const override { return {.space = spec && spec->axis == StripAxis::y}; }
   void fill(const Scales& scales) override;
   std::vector<std::string> files() const override { return {"across.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
@@ -32,6 +39,7 @@ class AcrossOutput final : public TableOutput<AcrossOutput, AcrossSpec> {
 struct HistorySpec {
   double every = 0, from = 0, bin = 0;
   std::int64_t samples = 1;
+  std::optional<std::vector<double>> between;
 };
 template <class Archive>
 void describe(Archive& a, HistorySpec& spec) {
@@ -39,6 +47,9 @@ void describe(Archive& a, HistorySpec& spec) {
   a.value("from", spec.from, non_negative, "time of the first");
   a.value("bin", spec.bin, non_negative, "height of a layer; default a bead's diameter");
   a.value("samples", spec.samples, at_least(1), "looks that a profile averages over, in the time before it");
+  a.value("between", spec.between, "[x, x]: only grains there count");
+  a.check(!spec.between || (spec.between->size() == 2 && (*spec.between)[0] < (*spec.between)[1]), "between",
+          "must be [low, high] with low < high");
 }
 /// [output.history]
 class HistoryOutput final : public TableOutput<HistoryOutput, HistorySpec> {

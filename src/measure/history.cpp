@@ -20,6 +20,7 @@ class History final : public Remembering<History> {
       : run_(run),
         bin_(spec.bin),
         samples_(spec.samples),
+        between_(spec.between),
         due_(run.schedule(spec.from, spec.every / static_cast<double>(spec.samples))) {}
 
   std::int64_t next_after(std::int64_t step) const override { return due_.after(step); }
@@ -28,6 +29,8 @@ class History final : public Remembering<History> {
     if (index < 0) return;
     const auto grains = look.engine.grains();
     for (std::size_t i = 0; i < grains.moving; ++i) {
+      const double x = grains.position[Frame::downhill][i];
+      if (between_ && !(x >= (*between_)[0] && x < (*between_)[1])) continue;
       const double b = std::floor(grains.position[run_.frame.normal()][i] / bin_);
       if (!(b >= 0 && b < most_layers)) continue;
       const auto at = static_cast<std::size_t>(b);
@@ -62,6 +65,7 @@ class History final : public Remembering<History> {
   const RunContext& run_;
   double bin_;
   std::int64_t samples_;
+  std::optional<std::vector<double>> between_;
   Schedule due_;
   std::vector<std::array<double, 5>> rows_;  // as written
   std::vector<HistorySums> now_;             // since the last profile

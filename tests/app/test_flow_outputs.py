@@ -166,6 +166,28 @@ class FlowOutputs(unittest.TestCase):
                 self.near(row["v_x"], mean, "v_x")
                 self.near(row["sigma_x"], math.sqrt(sum((u - mean) ** 2 for u in v) / len(v)), "sigma_x")
 
+    def test_strips_along_the_flow_and_histories_of_a_stretch_of_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            at = run(folder, SCENE, "--set", "output.across.axis=x", "--set", "output.history.between=[2, 5]")
+            strips, layers = {}, {}
+            for k, grains in enumerate(frames(folder, at)):
+                for g in grains:
+                    x, z, v = (float(g[key]) for key in ("x", "z", "velocity_x"))
+                    if k >= 2 and z >= 0.2:
+                        strips.setdefault(math.floor(x / 0.8), []).append(v)
+                    if k in (7, 8) and z >= 0 and 2 <= x < 5:
+                        layers.setdefault(math.floor(z), []).append(v)
+            rows = table(os.path.join(at, "across.csv"))
+            self.assertEqual([round(float(r["x"]), 6) for r in rows], [round((s + 0.5) * 0.8, 6) for s in sorted(strips)])
+            for row, s in zip(rows, sorted(strips)):
+                self.near(row["v_x"], sum(strips[s]) / len(strips[s]), "v_x")
+            told = [r for r in table(os.path.join(at, "history.csv")) if abs(float(r["time"]) - 4) < 1e-6]
+            self.assertEqual([float(r["h"]) for r in told], [h + 0.5 for h in sorted(layers)])
+            for row in told:
+                v = layers[math.floor(float(row["h"]))]
+                self.near(row["grains"], len(v) / 2, "grains")
+                self.near(row["v_x"], sum(v) / len(v), "v_x")
+
     def test_a_longer_run_has_the_same_tables(self):
         with tempfile.TemporaryDirectory() as folder:
             at = run(folder, SCENE, "--set", "run.duration=2.5")

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "figures/extract.hpp"
 #include "figures/extract_flow.hpp"
 
 using namespace chute::figures;
@@ -125,4 +126,20 @@ TEST_CASE(
   CHECK(map[2].series == "s h=1.5");
   CHECK(map[2].x == 1);
   CHECK(map[2].y == Approx(4));
+}
+
+TEST_CASE("an instant of several runs is one, whatever their steps make of its last digits") {
+  const RunFolder a("step_a"), b("step_b"), c("step_c");
+  a.write("series.csv", "time,v_x\n0,1\n2.9999999999999996,1\n4,1\n");
+  b.write("series.csv", "time,v_x\n0,2\n3.0000000000000004,2\n4,2\n");
+  c.write("series.csv", "time,v_x\n0,6\n3,6\n4.1,6\n");
+  Curve curve;
+  curve.extract = Extract::series, curve.column = "v_x";
+  const std::vector<fs::path> runs{a.path, b.path, c.path};
+  const auto rows = extract(curve, runs);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[1].x == Approx(3));
+  CHECK(rows[1].y == Approx(3));
+  CHECK(rows[2].y == Approx(1.5));
+  CHECK(rows[3].y == 6);
 }
