@@ -253,11 +253,6 @@ void check_resumed(const laws::ContactLaws& laws, soft::Scheme scheme) {
   CHECK(bytes_of(whole.state()) == bytes_of(resumed.state()));
   CHECK(whole.energy().residual() == resumed.energy().residual());
 
-  soft::ClumpEngine<D> by_two(bodies.grains, bodies.clumps, heap_setup<D>(laws, scheme, 1.0, 2));
-  by_two.advance_to(saved);
-  by_two.advance_to(last);
-  CHECK(bytes_of(whole.state()) == bytes_of(by_two.state()));
-
   auto all_pairs = s;
   all_pairs.search = search::Method::all_pairs;
   all_pairs.isa = Isa::baseline;
@@ -269,12 +264,22 @@ void check_resumed(const laws::ContactLaws& laws, soft::Scheme scheme) {
 
 }  // namespace
 
-TEST_CASE("the same bytes resumed, by several threads, and by the search through all pairs") {
+TEST_CASE("the same bytes resumed, and by the search through all pairs") {
   for (const auto scheme : {soft::Scheme::gear5, soft::Scheme::verlet})
     for (const auto& laws : {rough(k_n), remembering(k_n)}) {
       check_resumed<2>(laws, scheme);
       check_resumed<3>(laws, scheme);
     }
+}
+
+TEST_CASE("the same bytes by two threads") {
+  const auto bodies = heap<3>(false);
+  soft::ClumpEngine<3> alone(bodies.grains, bodies.clumps,
+                             heap_setup<3>(remembering(k_n), soft::Scheme::gear5, 1.0)),
+      by_two(bodies.grains, bodies.clumps, heap_setup<3>(remembering(k_n), soft::Scheme::gear5, 1.0, 2));
+  for (const std::int64_t n : {6000, 10000}) alone.advance_to(n), by_two.advance_to(n);
+  REQUIRE(alone.energy().shear_loss > 0.1);
+  CHECK(bytes_of(alone.state()) == bytes_of(by_two.state()));
 }
 
 TEST_CASE("a body across the end of a period is the same as one in its middle") {
