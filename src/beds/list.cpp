@@ -9,11 +9,11 @@
 namespace chute::beds {
 
 Catalogue<Bed>& list() {
-  static Catalogue<Bed> all{kind_of<Bed, Row>(),          kind_of<Bed, DisorderedRow>(), kind_of<Bed, Rough>(),
-                            kind_of<Bed, NoBed>(),        kind_of<Bed, Flat>(),
-                            kind_of<Bed, Lattice>(),      kind_of<Bed, RelaxedPlane>(),
-                            kind_of<Bed, RandomPlane>(),  kind_of<Bed, SpreadPlane>(),
-                            kind_of<Bed, LatticePlane>(), kind_of<Bed, PlaneFromFile>()};
+  static Catalogue<Bed> all{
+      kind_of<Bed, Row>(),          kind_of<Bed, DisorderedRow>(), kind_of<Bed, Rough>(),
+      kind_of<Bed, NoBed>(),        kind_of<Bed, Flat>(),          kind_of<Bed, Lattice>(),
+      kind_of<Bed, RelaxedPlane>(), kind_of<Bed, RandomPlane>(),   kind_of<Bed, SpreadPlane>(),
+      kind_of<Bed, LatticePlane>(), kind_of<Bed, PlaneFromFile>()};
   return all;
 }
 

@@ -276,7 +276,7 @@ static void check_contacts(const Scene& scene, const engines::Setting& setting, 
   laws::check_contact_time(scene.contact, setting.reference(), reader);
   for (const auto& meeting : setting.meetings()) {
     if (!meeting.own || meeting.own->restitution == 0) continue;  // which only hard grains can have
-    const auto impact = meeting.contact.impact(meeting.mean);
+    const auto impact = meeting.contact.impact(meeting.reference);
     if (!(impact.restitution > 0 && std::isfinite(impact.contact_time)))
       reader.fail(fmt::format("contact.between[{}]", meeting.place),
                   fmt::format("the damping is too strong: {} would never part where they meet",

@@ -204,9 +204,10 @@ TEST_CASE("A contact forgets; every bounce of a hysteretic ball has the same res
 }
 
 TEST_CASE("Laws without a memory carry none") {
-  soft::ContactStages<2> stages(Domain<2>{},
-                                {spring, laws::RegularisedCoulomb{10, 0.5, laws::MassScaling::none, {}}});
+  using laws::ContactLaws;
+  soft::ContactStages<2> stages(
+      Domain<2>{}, ContactLaws{spring, laws::RegularisedCoulomb{10, 0.5, laws::MassScaling::none, {}}});
   CHECK(!stages.memory().needed());
-  soft::ContactStages<2> with(Domain<2>{}, {spring, laws::CundallStrack{k_s, {0.5, true}}});
+  soft::ContactStages<2> with(Domain<2>{}, ContactLaws{spring, laws::CundallStrack{k_s, {0.5, true}}});
   CHECK(with.memory().needed());
 }

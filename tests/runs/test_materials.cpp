@@ -6,6 +6,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "io/vtk_files.hpp"
+#include "read/grain_frame.hpp"
 #include "scene/world.hpp"
 
 using namespace chute;
@@ -377,4 +379,38 @@ TEST_CASE("the time step resolves the stiffest pair") {
               fmt::format("grains.density={}", mass)}) == Approx(usual / 4).epsilon(1e-3));
   CHECK(step({materials, "contact.between=[{materials=[\"b\",\"b\"], normal={stiffness=4e5}}]"}) ==
         Approx(usual * std::sqrt(0.5 / mass) / 2).epsilon(1e-3));
+}
+
+TEST_CASE("frames name the materials, and pictures read their names") {
+  const auto scene = parse(two_materials, methods[0]);
+  const auto world = scene::make_world<2>(scene);
+  auto facts = io::facts_of(world, "reduced");
+  facts.materials = {"light", "heavy"};
+  const std::array<Array, 2> force;
+  const auto bytes = io::grains_vtp(view_of<2>(world.grains, force, world.domain, 0), facts);
+  const auto frame = read::parse_frame({{"frame.vtp", bytes}});
+  const auto* species = frame.find("species");
+  REQUIRE(species);
+  CHECK(species->words == std::vector<std::string>{"light", "heavy"});
+  for (std::size_t i = 0; i < frame.size(); ++i) CHECK(species->at(i) == world.grains.material[i]);
+  facts.materials.clear();  // no names, no array
+  CHECK_FALSE(read::parse_frame(
+                  {{"frame.vtp", io::grains_vtp(view_of<2>(world.grains, force, world.domain, 0), facts)}})
+                  .find("species"));
+}
+
+TEST_CASE("a pair's contact time is that of its own mean grains") {
+  const auto scene =
+      parse(flow, {"material=[{name=\"a\", share=0.5}, {name=\"b\", share=0.5, density=30}]",
+                   "contact.between=[{materials=[\"a\",\"b\"], normal={contact_time=0.02, restitution=0.8}}]",
+                   "grains.diameter.std=0"});
+  const auto fact = [&](const std::string& name) {
+    for (const auto& f : scene.engine->facts(scene::setting_of(scene)))
+      if (f.name == name) return f.value;
+    return 0.0;
+  };
+  CHECK(fact("t_n a-b") == Approx(0.02));
+  CHECK(fact("e_n a-b") == Approx(0.8));
+  // m_eff of two equal ones is half of m, and t_n goes as its root at equal restitution
+  CHECK(fact("t_n b-b") / fact("t_n a-a") == Approx(std::sqrt(30 / (6 / std::numbers::pi))));
 }

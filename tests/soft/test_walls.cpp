@@ -148,3 +148,26 @@ TEST_CASE("a grain on a smooth plane that tilts follows gravity, which does the 
   CHECK(e.gravity_work == Approx(v * v / 2).epsilon(1e-3));
   CHECK(std::abs(e.residual()) < 2e-3 * e.gravity_work);
 }
+
+TEST_CASE(
+    "friction that is integrated over some steps is so with walls, too: a ball that slips comes to roll") {
+  const auto mu = 10.0, stiff = 1e5;  // γ_s dt 7/(2 m) = 35: a step of the slip as it is would throw it about
+  for (const bool own : {false, true}) {
+    Grains<2> grains;
+    add_ball<2>(grains, {{0, 0.5}}, {{1, 0}}, 0.5, 1);
+    auto made = under_gravity<2>(mu);
+    laws::ContactLaws implicit = contact(mu);
+    implicit.shear = laws::RegularisedCoulomb{stiff, mu, laws::MassScaling::none, 12};
+    if (own)
+      made.wall_laws = {implicit};
+    else
+      made.laws = implicit;
+    made.walls.resize(1);
+    made.walls[0].normal = {{0, 1}};
+    SoftEngine<2> engine(grains, made);
+    engine.advance_to(20000);
+    // v = 5/7 of what it was, whatever the friction does in between
+    CHECK(engine.state().velocity[0][0] == Approx(5.0 / 7).epsilon(1e-3));
+    CHECK(engine.state().spin[0][0] == Approx(-10.0 / 7).epsilon(1e-3));
+  }
+}

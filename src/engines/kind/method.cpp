@@ -38,11 +38,11 @@ std::vector<MeetingMaterials> Setting::meetings() const {
       const bool named = own != contact.between.end();
       auto with = same;
       if (named) laws::put_in(with, *own);
+      const auto mean = pair_of({first.radius, first.mass}, {second.radius, second.mass});
+      const auto stiffest = pair_of({first.smallest_radius, first.smallest_mass},
+                                    {second.smallest_radius, second.smallest_mass});
       // What has no numbers of its own is as [contact] has it, for that reference.
-      all.push_back({a, b, first.name + "-" + second.name, with,
-                     named ? pair_of({first.radius, first.mass}, {second.radius, second.mass}) : reference(),
-                     pair_of({first.smallest_radius, first.smallest_mass},
-                             {second.smallest_radius, second.smallest_mass}),
+      all.push_back({a, b, first.name + "-" + second.name, with, named ? mean : reference(), mean, stiffest,
                      named ? &*own : nullptr, static_cast<std::size_t>(own - contact.between.begin())});
     }
   return all;

@@ -32,6 +32,7 @@ struct MeetingMaterials {
   int a, b;
   std::string name;                 ///< "glass-steel"
   laws::ContactSpec contact;        ///< [contact] with what is their own
+  laws::Pair reference;             ///< that contact times and restitutions are given for
   laws::Pair mean, stiffest;        ///< two mean grains, two of the smallest
   const laws::ContactBetween* own;  ///< null: nothing is
   std::size_t place;                ///< of their own in [[contact.between]]

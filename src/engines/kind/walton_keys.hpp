@@ -46,8 +46,8 @@ struct WaltonKeys {
   double e_n(const Setting& s, const MeetingMaterials& meeting) const {
     if (!meeting.own) return e_n(s);
     if (meeting.own->restitution) return *meeting.own->restitution;
-    const double own = meeting.contact.impact(meeting.mean).restitution;
-    return own == s.contact.impact(meeting.mean).restitution ? e_n(s) : own;
+    const double own = meeting.contact.impact(meeting.reference).restitution;
+    return own == s.contact.impact(meeting.reference).restitution ? e_n(s) : own;
   }
   laws::Walton walton(const Setting& s, const MeetingMaterials& meeting) const {
     laws::Walton all = walton(s);

@@ -16,10 +16,19 @@
 namespace chute::soft {
 namespace {
 
+LawTable in_steps(LawTable laws, double time_step) {
+  laws.know_time_step(time_step);
+  return laws;
+}
 template <int D>
 LawTable laws_for(const SoftSetup<D>& setup) {
-  LawTable laws = setup.between.empty() ? LawTable(setup.laws) : LawTable(setup.between);
-  laws.know_time_step(setup.time_step);
+  return in_steps(setup.between.empty() ? LawTable(setup.laws) : LawTable(setup.between), setup.time_step);
+}
+template <int D>
+std::vector<std::optional<LawTable>> laws_of_walls(const SoftSetup<D>& setup) {
+  auto laws = setup.wall_laws;
+  for (auto& own : laws)
+    if (own) own->know_time_step(setup.time_step);
   return laws;
 }
 
@@ -33,7 +42,7 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
       stages_(setup.domain, laws_for(setup), setup.isa,
               setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
-      walls_(setup.surroundings(), setup.laws, setup.wall_laws,
+      walls_(setup.surroundings(), in_steps(setup.laws, setup.time_step), laws_of_walls(setup),
              {setup.isa, setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint}),
       touches_(grains_.moving, setup.contact_time),
       team_(std::make_unique<Team>(setup.threads)),

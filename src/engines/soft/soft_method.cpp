@@ -34,7 +34,8 @@ std::optional<LawTable> laws_of_wall(const engines::Setting& setting, const Wall
   for (const auto& two : setting.meetings())
     for (const auto& [wall, grain] : {std::pair(two.a, two.b), std::pair(two.b, two.a)})
       if (wall == own.material)
-        by_grain[static_cast<std::size_t>(grain)] = with_own(two.contact, two.mean, own, laws::KeepLaw::yes);
+        by_grain[static_cast<std::size_t>(grain)] =
+            with_own(two.contact, two.reference, own, laws::KeepLaw::yes);
   return LawTable(by_grain);
 }
 
@@ -45,8 +46,9 @@ std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const eng
   setup.laws = setting.contact.laws(setting.reference());
   if (setting.by_pair()) {
     setup.laws = setting.contact.laws_of_pair(setting.reference());
-    setup.between = setting.for_pairs(
-        setup.laws, [](const engines::MeetingMaterials& two) { return two.contact.laws_of_pair(two.mean); });
+    setup.between = setting.for_pairs(setup.laws, [](const engines::MeetingMaterials& two) {
+      return two.contact.laws_of_pair(two.reference);
+    });
   }
   for (const auto& wall : setup.walls) setup.wall_laws.push_back(laws_of_wall(setting, wall.surface));
   setup.scheme = method.integrator;
@@ -71,7 +73,7 @@ Shortest shortest(const engines::Setting& s) {
   if (!s.by_pair()) return least;
   least.contact_time = std::numeric_limits<double>::infinity();
   for (const auto& two : s.meetings()) {
-    const double t_n = two.contact.impact(two.mean, two.stiffest).contact_time;
+    const double t_n = two.contact.impact(two.reference, two.stiffest).contact_time;
     if (t_n < least.contact_time) least = {t_n, "the smallest grains of " + two.name};
   }
   return least;
@@ -83,7 +85,7 @@ std::vector<Fact> pair_facts(const engines::Setting& s) {
   if (!s.by_pair()) return list;
   for (const auto& two : s.meetings()) {
     const double v = two.contact.at_velocity().value_or(1);
-    auto laws = two.contact.laws_of_pair(two.mean);
+    auto laws = two.contact.laws_of_pair(two.reference);
     const auto impact = laws::normal_impact(laws, v, two.mean);
     list.push_back(
         {"t_n " + two.name, impact.contact_time, s.in("s", "sqrt(d/g)"), "contact time of mean grains"});
