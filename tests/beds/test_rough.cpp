@@ -6,7 +6,8 @@
 
 using namespace chute;
 
-TEST_CASE("beads of any size and gap fill the length evenly, with the gap that was asked for or a little more") {
+TEST_CASE(
+    "beads of any size and gap fill the length evenly, with the gap that was asked for or a little more") {
   beds::Rough bed;
   bed.length = 30;
   for (const double diameter : {0.25, 0.7, 1.0, 2.0})

@@ -36,7 +36,8 @@ TEST_CASE("a material that lies above all others has the index 1, whatever the s
   CHECK(three[2] == Approx(-1));
 }
 
-TEST_CASE("materials that lie the same way up and down are not parted; one of alternating grains by one grain's share") {
+TEST_CASE(
+    "materials that lie the same way up and down are not parted; one of alternating grains by one grain's share") {
   CHECK(indices(column({0, 1, 1, 0}, {0.5, 0.7, 0.7, 0.5}), 2)[0] == Approx(0).margin(1e-12));
   // u = 1/8, 3/8, 5/8, 7/8 of four equal ones: 2 ((3/8 + 7/8) − (1/8 + 5/8))/2
   const auto turns = indices(column({0, 1, 0, 1}, {0.5, 0.5, 0.5, 0.5}), 2);
