@@ -12,8 +12,7 @@ concept ReadsKeys = requires(Archive& a) {
   a.has(std::string_view{});
 };
 
-/// How long a step of soft grains is: in parts of a contact, or as it is. One of them: of the two together the second would
-/// win without a word.
+/// How long a step of soft grains is: in parts of a contact, or as it is. One of them: where a setting adds the second it counts.
 template <class Archive>
 void describe_step(Archive& a, double& steps_per_contact, std::optional<double>& time_step) {
   // A scene that is written as it was understood must be one that can be read.
@@ -21,9 +20,6 @@ void describe_step(Archive& a, double& steps_per_contact, std::optional<double>&
     a.value("steps_per_contact", steps_per_contact, at_least(5),
             "time steps in the shortest contact time t_n");
   a.value("time_step", time_step, positive, "instead of steps_per_contact");
-  if constexpr (ReadsKeys<Archive>)
-    a.check(!time_step || !a.has("steps_per_contact"), "time_step",
-            "give either time_step or steps_per_contact");
 }
 
 }  // namespace chute::engines
