@@ -58,8 +58,7 @@ TEST_CASE("a run of more steps than can be counted is refused") {
   CHECK(said.find("more than 1e+15") != said.npos);
   CHECK(set("run.duration=1e6") == "accepted");
   CHECK_THAT(set("run.duration=1e9"), Catch::Contains("output.frames.every: 0.5 makes 2e+09 of them"));
-  CHECK(refused(example, std::vector<std::string>{"engine.steps_per_contact=", "engine.time_step=1e-7",
-                                                  "run.duration=1e9"})
+  CHECK(refused(example, std::vector<std::string>{"engine.time_step=1e-7", "run.duration=1e9"})
             .find("run.duration: ") != said.npos);
 }
 

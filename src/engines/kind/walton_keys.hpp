@@ -23,7 +23,6 @@ struct WaltonKeys {
     a.value("steps_per_contact", steps_per_contact, at_least(5),
             "instants to stop at in t_n of [contact] (50)");
     a.value("time_step", time_step, positive, "time between instants to stop at, instead");
-    a.check(!time_step || !steps_per_contact, "time_step", "give either time_step or steps_per_contact");
     // What only soft grains use is understood: a scene changes its method with one key.
     a.ignored("integrator");
     a.ignored("deepest_overlap");

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "engines/kind/method.hpp"
-#include "engines/kind/step_keys.hpp"
 #include "engines/lammps/deck.hpp"
 
 namespace chute::lammps {
@@ -23,7 +22,9 @@ class LammpsMethod final : public Described<engines::Method, LammpsMethod> {
   template <class Archive>
   void describe(Archive& a) {
     a.choice("integrator", integrator, integrators, "velocity Verlet; LAMMPS has no gear5");
-    engines::describe_step(a, steps_per_contact, time_step);
+    a.value("steps_per_contact", steps_per_contact, at_least(5),
+            "time steps in the shortest contact time t_n");
+    a.value("time_step", time_step, positive, "instead of steps_per_contact");
     a.value("dumps", dumps, "folder of dumps that LAMMPS left: it is played back, as chute import does");
     a.ignored("deepest_overlap");
   }

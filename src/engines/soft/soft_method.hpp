@@ -2,7 +2,6 @@
 #include <array>
 
 #include "engines/kind/method.hpp"
-#include "engines/kind/step_keys.hpp"
 #include "engines/soft/integrator.hpp"
 
 namespace chute::soft {
@@ -23,7 +22,9 @@ class SoftMethod final : public Described<engines::Method, SoftMethod> {
   template <class Archive>
   void describe(Archive& a) {
     a.choice("integrator", integrator, integrators, "(2.11) to (2.14), or velocity Verlet");
-    engines::describe_step(a, steps_per_contact, time_step);
+    a.value("steps_per_contact", steps_per_contact, at_least(5),
+            "time steps in the shortest contact time t_n");
+    a.value("time_step", time_step, positive, "instead of steps_per_contact");
     a.value("deepest_overlap", deepest_overlap, Range{0, 1, true, false},
             "of the smaller radius; beyond it the run has left physics and stops");
   }
