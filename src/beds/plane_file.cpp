@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "beds/planes.hpp"
+#include "common/csv_columns.hpp"
 #include "common/error.hpp"
 #include "io/grains_file.hpp"
 
@@ -14,35 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The columns x and y of a CSV file; lines with # are comments.
+/// The columns x and y of a CSV file.
 std::vector<std::array<double, 2>> places_in_csv(const std::string& file) {
-  std::ifstream in(file);
+  const auto columns = read_csv_columns(file, {"x", "y"});
   std::vector<std::array<double, 2>> places;
-  std::vector<std::string> names;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty() || line[0] == '#') continue;
-    std::vector<std::string> cells;
-    std::istringstream parts(line);
-    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    std::array<double, 2> place{};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto column = std::find(names.begin(), names.end(), k == 0 ? "x" : "y") - names.begin();
-      try {
-        place[k] = std::stod(cells.at(static_cast<std::size_t>(column)));
-      } catch (const std::exception&) {
-        throw InputError(fmt::format(
-            "{}:{}: no number in a column {}; the first line names the columns, x and y among them", file,
-            number, k == 0 ? "x" : "y"));
-      }
-    }
-    places.push_back(place);
-  }
+  for (std::size_t i = 0; i < columns[0].size(); ++i) places.push_back({columns[0][i], columns[1][i]});
   return places;
 }
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <numeric>
-#include <sstream>
 
+#include "common/csv_columns.hpp"
 #include "common/error.hpp"
 
 namespace chute::scene {
@@ -26,33 +24,8 @@ double log_std(const Diameter& d) { return std::sqrt(std::log1p(d.std * d.std / 
 
 /// Sizes and weights of a CSV file with these columns.
 void read_sizes(const std::string& file, Diameter& diameter) {
-  std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: no such file", file));
-  const std::array<std::string, 2> wanted{"diameter", "weight"};
-  std::vector<std::string> names;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty() || line[0] == '#') continue;
-    std::vector<std::string> cells;
-    std::istringstream parts(line);
-    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto column = std::find(names.begin(), names.end(), wanted[k]) - names.begin();
-      try {
-        (k == 0 ? diameter.sizes : diameter.weights)
-            .push_back(std::stod(cells.at(static_cast<std::size_t>(column))));
-      } catch (const std::exception&) {
-        throw InputError(fmt::format(
-            "{}:{}: no number in a column {}; the first line names the columns, diameter and weight among them",
-            file, number, wanted[k]));
-      }
-    }
-  }
+  const auto columns = read_csv_columns(file, {"diameter", "weight"});
+  diameter.sizes = columns[0], diameter.weights = columns[1];
 }
 
 template <class Archive>

@@ -10,6 +10,18 @@ import unittest
 
 chute = sys.argv[1]
 
+LAWS = """[contact.normal]
+law = "spring-dashpot"
+stiffness = %s
+restitution = 0.6
+[contact.tangential]
+law = "coulomb-viscous"
+viscosity = 10
+friction = 0.5
+[engine]
+method = "soft"
+"""
+
 SCENE = """
 title = "Spheres beside one wall run out over the edge of their bed"
 units = "reduced"
@@ -32,17 +44,7 @@ normal = [0, 1, 0]
 count = 60
 diameter = { mean = 1.0, std = 0.05 }
 start = { lattice = "square", spacing = 1.2, velocity = 1.0, spread = 0.5 }
-[contact.normal]
-law = "spring-dashpot"
-stiffness = 1e3
-restitution = 0.6
-[contact.tangential]
-law = "coulomb-viscous"
-viscosity = 10
-friction = 0.5
-[engine]
-method = "soft"
-[run]
+""" + LAWS % "1e3" + """[run]
 duration = 4
 [output]
 frames = { every = 0.5 }
@@ -69,17 +71,7 @@ normal = [0, -1]
 count = 91
 diameter = { mean = 1.0, std = 0.1 }
 start = { kind = "pressed", low = 0.5, high = 8 }
-[contact.normal]
-law = "spring-dashpot"
-stiffness = 1e4
-restitution = 0.6
-[contact.tangential]
-law = "coulomb-viscous"
-viscosity = 10
-friction = 0.5
-[engine]
-method = "soft"
-[run]
+""" + LAWS % "1e4" + """[run]
 duration = 0.01
 [output]
 frames = { every = 0.01 }

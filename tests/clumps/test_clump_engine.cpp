@@ -200,9 +200,11 @@ std::string bytes_of(const Grains<D>& grains) {
 }
 
 template <int D>
-void check_round(const laws::ContactLaws& laws, soft::Scheme scheme) {
+void check_round(const laws::ContactLaws& laws, soft::Scheme scheme,
+                 const std::optional<laws::ContactLaws>& of_walls = {}) {
   const auto bodies = heap<D>(true);
-  const auto s = heap_setup<D>(laws, scheme, 0.6);
+  auto s = heap_setup<D>(laws, scheme, 0.6);
+  if (of_walls) s.wall_laws.assign(s.walls.size(), soft::LawTable(*of_walls));
   soft::SoftEngine<D> round(bodies.grains, s);
   soft::ClumpEngine<D> clumps(bodies.grains, bodies.clumps, s);
   for (const std::int64_t n : {1, 2000, 16000}) {
@@ -231,6 +233,13 @@ TEST_CASE("bodies of one sphere give the bytes of round grains") {
       check_round<2>(laws, scheme);
       check_round<3>(laws, scheme);
     }
+}
+
+TEST_CASE("… with walls of laws of their own, which take some steps to let a slip die away") {
+  auto laws = rough(k_n), of_walls = laws;
+  laws.shear = laws::RegularisedCoulomb{1e4, 0.5, laws::MassScaling::none, 12};
+  of_walls.shear = laws::RegularisedCoulomb{1e4, 0.2, laws::MassScaling::none, 12};
+  check_round<3>(laws, soft::Scheme::gear5, of_walls);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "engines/event/event_method.hpp"
 
 #include "engines/event/event_engine.hpp"
+#include "engines/hard/contacts_of.hpp"
 #include "engines/kind/memory.hpp"
 
 namespace chute::event {
@@ -13,18 +14,7 @@ double cut_off(const EventMethod& method, const engines::Setting& s) {
 template <int D>
 std::unique_ptr<Engine> made(World<D> world, const EventMethod& method, const engines::Setting& setting) {
   EventSetup<D> setup{world.surroundings()};
-  const auto contact = [&](double e_n, const laws::Walton& tangential) {
-    hard::HardContact made{laws::ConstantRestitution{e_n}, tangential};
-    if (method.restitution_velocity)
-      made.restitution =
-          laws::PowerLawRestitution{1 - e_n, *method.restitution_velocity, method.restitution_exponent};
-    return made;
-  };
-  setup.contact = contact(method.e_n(setting), method.walton(setting));
-  if (setting.by_pair())
-    setup.between = setting.for_pairs(setup.contact, [&](const engines::MeetingMaterials& two) {
-      return contact(method.e_n(setting, two), method.walton(setting, two));
-    });
+  hard::set_contacts(setup, method, setting);
   setup.contact_time = cut_off(method, setting);
   setup.tick = method.step(setting);
   setup.seed = setting.seed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engines/hard/contacts_of.hpp"
 #include "engines/hybrid/hybrid_engine.hpp"
 #include "engines/kind/memory.hpp"
 
@@ -13,18 +14,7 @@ template <int D>
 std::unique_ptr<Engine> made(World<D> world, const HybridMethod& method, const engines::Setting& setting,
                              int threads) {
   HybridSetup<D> setup{world.surroundings()};
-  const auto contact = [&](double e_n, const laws::Walton& tangential) {
-    hard::HardContact made{laws::ConstantRestitution{e_n}, tangential};
-    if (method.restitution_velocity)
-      made.restitution =
-          laws::PowerLawRestitution{1 - e_n, *method.restitution_velocity, method.restitution_exponent};
-    return made;
-  };
-  setup.contact = contact(method.e_n(setting), method.walton(setting));
-  if (setting.by_pair())
-    setup.between = setting.for_pairs(setup.contact, [&](const engines::MeetingMaterials& two) {
-      return contact(method.e_n(setting, two), method.walton(setting, two));
-    });
+  hard::set_contacts(setup, method, setting);
   setup.time_step = method.step(setting);
   setup.diameter = setting.resolved_diameter();
   setup.collisions_per_pair = static_cast<int>(method.collisions_per_step);

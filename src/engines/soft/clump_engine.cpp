@@ -13,28 +13,16 @@
 #include "core/not_a_number.hpp"
 
 namespace chute::soft {
-namespace {
-
-SlipRule slip_rule(Scheme scheme) {
-  return scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint;
-}
-laws::ContactLaws laws_of(const laws::ContactLaws& laws, double time_step) {
-  auto known = laws;
-  laws::know_time_step(known, time_step);
-  return known;
-}
-
-}  // namespace
-
 template <int D>
 ClumpEngine<D>::ClumpEngine(Grains<D> bodies, Clumps<D> clumps, const SoftSetup<D>& setup)
     : setup_(setup),
       clumps_(std::move(clumps)),
       bodies_(std::move(bodies)),
       list_(setup.domain, setup.skins, setup.search, setup.isa),
-      stages_(setup.domain, laws_of(setup.laws, setup.time_step), setup.isa, slip_rule(setup.scheme)),
+      stages_(setup.domain, laws_of_grains(setup), setup.isa, slip_rule(setup.scheme)),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa, false),
-      walls_(setup.surroundings(), setup.laws, setup.wall_laws, {setup.isa, slip_rule(setup.scheme)}),
+      walls_(setup.surroundings(), laws_of_grains(setup), laws_of_walls(setup),
+             {setup.isa, slip_rule(setup.scheme)}),
       team_(std::make_unique<Team>(setup.threads)) {
   for (std::size_t i = 0; i < bodies_.moving; ++i) {
     const auto momentum = momentum_of(clumps_.of(i), bodies_.attitude(i), bodies_.turning(i));
@@ -219,15 +207,9 @@ void ClumpEngine<D>::for_contacts(const Each& each) const {
 template <int D>
 void ClumpEngine<D>::check_overlaps() const {
   for_contacts([&](const Contacts<D>& contacts, std::size_t c) {
-    const auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
-    const bool wall = j >= spheres_.size();
-    const double depth =
-        contacts.overlap[c] / (wall ? spheres_.radius[i] : std::min(spheres_.radius[i], spheres_.radius[j]));
-    if (depth > setup_.deepest_overlap)
-      leave_physics(static_cast<std::size_t>(body_[i]),
-                    fmt::format("it overlaps {} by {:.3g} of the smaller sphere's radius (limit {}): {}",
-                                wall ? "a wall" : fmt::format("grain {}", body_[j]), depth,
-                                setup_.deepest_overlap, why_so_deep(setup_)));
+    if (const auto what =
+            too_deep(setup_, spheres_.radius, contacts, c, [&](std::size_t j) { return body_[j]; }))
+      leave_physics(static_cast<std::size_t>(body_[static_cast<std::size_t>(contacts.i[c])]), *what);
   });
 }
 

@@ -14,36 +14,15 @@
 #include "core/not_a_number.hpp"
 
 namespace chute::soft {
-namespace {
-
-LawTable in_steps(LawTable laws, double time_step) {
-  laws.know_time_step(time_step);
-  return laws;
-}
-template <int D>
-LawTable laws_for(const SoftSetup<D>& setup) {
-  return in_steps(setup.between.empty() ? LawTable(setup.laws) : LawTable(setup.between), setup.time_step);
-}
-template <int D>
-std::vector<std::optional<LawTable>> laws_of_walls(const SoftSetup<D>& setup) {
-  auto laws = setup.wall_laws;
-  for (auto& own : laws)
-    if (own) own->know_time_step(setup.time_step);
-  return laws;
-}
-
-}  // namespace
-
 template <int D>
 SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
     : setup_(setup),
       grains_(std::move(grains)),
       list_(setup.domain, setup.skins, setup.search, setup.isa),
-      stages_(setup.domain, laws_for(setup), setup.isa,
-              setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint),
+      stages_(setup.domain, laws_of_grains(setup), setup.isa, slip_rule(setup.scheme)),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
-      walls_(setup.surroundings(), in_steps(setup.laws, setup.time_step), laws_of_walls(setup),
-             {setup.isa, setup.scheme == Scheme::gear5 ? SlipRule::trapezoid : SlipRule::midpoint}),
+      walls_(setup.surroundings(), laws_of_grains(setup), laws_of_walls(setup),
+             {setup.isa, slip_rule(setup.scheme)}),
       touches_(grains_.moving, setup.contact_time),
       team_(std::make_unique<Team>(setup.threads)),
       tiles_(std::make_unique<TimeTiles<D>>(*strips_, setup.many.grains_per_tile)) {
@@ -193,25 +172,11 @@ void SoftEngine<D>::look_again() {
 }
 
 template <int D>
-std::string why_so_deep(const SoftSetup<D>& setup) {
-  constexpr double fewest = 5;  // steps in a contact, as engine.steps_per_contact has it
-  const double steps = setup.contact_time / setup.time_step;
-  if (steps >= fewest) return "stiffness is too low for these velocities";
-  return fmt::format("the time step is {:.2g} of a contact time, which needs {} steps or more", 1 / steps,
-                     fewest);
-}
-
-template <int D>
 void SoftEngine<D>::check_overlaps() const {
   for_contacts([&](const Contacts<D>& contacts, std::size_t c) {
-    const auto i = static_cast<std::size_t>(contacts.i[c]), j = static_cast<std::size_t>(contacts.j[c]);
-    const bool wall = j >= grains_.size();
-    const double depth =
-        contacts.overlap[c] / (wall ? grains_.radius[i] : std::min(grains_.radius[i], grains_.radius[j]));
-    if (depth > setup_.deepest_overlap)
-      leave_physics(i, fmt::format("it overlaps {} by {:.3g} of the smaller radius (limit {}): {}",
-                                   wall ? "a wall" : fmt::format("grain {}", id_at(j)), depth,
-                                   setup_.deepest_overlap, why_so_deep(setup_)));
+    if (const auto what =
+            too_deep(setup_, grains_.radius, contacts, c, [&](std::size_t j) { return id_at(j); }))
+      leave_physics(id_at(static_cast<std::size_t>(contacts.i[c])), *what);
   });
 }
 
@@ -425,8 +390,6 @@ void SoftEngine<D>::restore(std::istream& in) {
   look_again();
 }
 
-template std::string why_so_deep(const SoftSetup<2>&);
-template std::string why_so_deep(const SoftSetup<3>&);
 template class SoftEngine<2>;
 template class SoftEngine<3>;
 

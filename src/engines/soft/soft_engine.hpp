@@ -2,46 +2,15 @@
 #include <memory>
 
 #include "core/engine.hpp"
-#include "core/world.hpp"
 #include "engines/soft/contact_stages.hpp"
 #include "engines/soft/integrator.hpp"
+#include "engines/soft/soft_setup.hpp"
 #include "engines/soft/strips.hpp"
 #include "engines/soft/time_tiles.hpp"
 #include "engines/soft/wall_contacts.hpp"
 #include "search/neighbour_list.hpp"
 
 namespace chute::soft {
-
-/// How the engine goes about many grains. `sort_from` and `sort_every` are part of what makes the bytes; the
-/// others only cost or save time.
-struct ManyGrains {
-  std::size_t sort_from = 2000;        ///< so many moving grains are kept in an order of places
-  std::int64_t sort_every = 4096;      ///< steps
-  std::size_t grains_per_tile = 4096;  ///< see TimeTiles
-  bool tiles = true;
-};
-
-/// What a soft-sphere run needs besides its grains.
-template <int D>
-struct SoftSetup : Surroundings<D> {
-  laws::ContactLaws laws{};
-  ByPair<laws::ContactLaws> between{};  ///< by materials; empty: `laws` for all
-  std::vector<std::optional<LawTable>>
-      wall_laws{};  ///< of the walls that have their own; if `between` is not empty, of all
-  Scheme scheme = Scheme::gear5;
-  double time_step = 0;
-  typename search::NeighbourList<D>::Skins skins{};
-  double deepest_overlap = 0.25;  ///< of the smallest radius; beyond it the run has left physics
-  double contact_time = 0;        ///< t_n of a usual impact: what impacts call rolling (core/impact.hpp)
-  search::Method search = search::Method::cells;
-  Isa isa = best_isa();
-  int threads = 1;  ///< results do not depend on it
-  ManyGrains many{};
-};
-
-/// What an overlap that is too deep comes from: a contact that a step passes over is not one that is too soft.
-template <int D>
-std::string why_so_deep(const SoftSetup<D>& setup);
 
 /// Time-step driven molecular dynamics of soft grains, thesis 2.1.1. A step:
 /// predict → neighbour list → contacts → forces → account → impacts → correct.
@@ -131,11 +100,5 @@ class SoftEngine final : public Engine {
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);
 };
-
-/// The skins that make steps cheapest for grains of about the given diameter; results do not depend on them.
-template <int D>
-typename search::NeighbourList<D>::Skins usual_skins(double diameter) {
-  return {0.04 * diameter, 0.3 * diameter};
-}
 
 }  // namespace chute::soft
