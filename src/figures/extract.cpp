@@ -224,13 +224,6 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
     std::vector<double> y, err;
   };
   std::map<double, Values> at;
-  // Runs step by steps of their own, so that what all tell at t = 3 stands at 2.9999999999999996 in one of them.
-  const auto near = [&](double x) -> Values& {
-    constexpr double same = 1e-9;
-    const double slack = same * std::max(1.0, std::abs(x));
-    const auto known = at.lower_bound(x - slack);
-    return known != at.end() && known->first <= x + slack ? known->second : at[x];
-  };
   for (const auto& run : runs) {
     const auto table = read::read_table(run / file);
     const auto x = table.column(other.empty() ? table.header.front() : other), y = table.column(curve.column);
@@ -239,7 +232,7 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
     const auto err = table.has(error) ? table.column(error) : std::vector<double>(x.size(), NAN);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (tells[i] && std::isfinite(y[i])) {
-        auto& values = near(x[i]);
+        auto& values = at_same(at, x[i]);
         values.y.push_back(y[i]), values.err.push_back(err[i]);
       }
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/statistics/linear_regression.hpp>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -44,11 +45,8 @@ double tangent_of(const toml::table& scene) {
 
 /// Slope of the line through these points by least squares; NaN of fewer than two.
 double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<double>(x.size());
-  double mx = 0, my = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
-  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
-  return xx > 0 ? xy / xx : NAN;
+  if (x.size() < 2) return NAN;
+  return boost::math::statistics::simple_ordinary_least_squares(x, y).second;
 }
 
 /// profiles.csv, and where its flow ends.
@@ -184,9 +182,7 @@ std::vector<FigureRow> history(const Curve& curve, std::span<const fs::path> run
   for (const auto& run : runs) {
     const auto table = read::read_table(run / "history.csv");
     const auto time = table.column("time"), h = table.column("h"), y = table.column(curve.column);
-    // Steps are counted in floating point: the same instant differs in its last digits from run to run.
-    const auto rounded = [](double t) { return std::round(t * 1e6) * 1e-6; };
-    for (std::size_t i = 0; i < time.size(); ++i) at[h[i]][rounded(time[i])].push_back(y[i]);
+    for (std::size_t i = 0; i < time.size(); ++i) at_same(at[h[i]], time[i]).push_back(y[i]);
   }
   std::vector<FigureRow> rows;
   for (const auto& [h, times] : at)

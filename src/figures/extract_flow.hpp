@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +13,16 @@
 /// What figures of dense flows take from runs: numbers that each run is known by, one against the other, and maps over height
 /// and time.
 namespace chute::figures {
+
+/// What several runs tell at x. Their times are steps times the step, which is each run's own: what all tell at t = 3 stands at
+/// 2.9999999999999996 in one of them.
+template <class Values>
+Values& at_same(std::map<double, Values>& at, double x) {
+  constexpr double same = 1e-9;
+  const double slack = same * std::max(1.0, std::abs(x));
+  const auto known = at.lower_bound(x - slack);
+  return known != at.end() && known->first <= x + slack ? known->second : at[x];
+}
 
 /// One number of a run: of its bulk, which is what lies between `bulk[0]` and `bulk[1]` of the height of the flow, the mean over
 /// the layers of profiles.csv of

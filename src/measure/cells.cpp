@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/error.hpp"
 #include "common/pvd.hpp"
+#include "core/sphere.hpp"
 #include "io/cells_file.hpp"
 
 namespace chute::measure {
@@ -95,7 +95,7 @@ class Grid {
   static void add(CellSums& s, const GrainsView& grains, std::size_t i) {
     const double m = grains.mass[i], R = grains.radius[i];
     s.number += 1;
-    s.content += grains.dimensions == 2 ? std::numbers::pi * R * R : 4 * std::numbers::pi / 3 * R * R * R;
+    s.content += filled_by(R, grains.dimensions);
     s.mass += m;
     std::array<double, 3> v{};
     for (std::size_t k = 0; k < 3; ++k)

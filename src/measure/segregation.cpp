@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
+#include "core/sphere.hpp"
 #include "measure/outputs.hpp"
 
 namespace chute::measure {
 namespace {
-
-double volume(double R, int dimensions) {
-  return dimensions == 2 ? std::numbers::pi * R * R : 4.0 / 3 * std::numbers::pi * R * R * R;
-}
 
 /// The heights of materials over time, and what each does in layers.
 class Segregation final : public Remembering<Segregation> {
@@ -87,7 +83,7 @@ class Segregation final : public Remembering<Segregation> {
       if (at >= bins.size()) bins.resize((static_cast<std::size_t>(b) + 1) * count());
       const auto v = velocity_of(grains, i);
       bins[at].count += 1;
-      bins[at].volume += volume(grains.radius[i], grains.dimensions);
+      bins[at].volume += filled_by(grains.radius[i], grains.dimensions);
       for (std::size_t d = 0; d < 3; ++d) bins[at].v[d] += v[d], bins[at].v2[d] += v[d] * v[d];
     }
   }
@@ -181,11 +177,11 @@ std::vector<double> segregation_indices(const GrainsView& grains, std::size_t ax
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return grains.position[axis][i]; });
   double all = 0, below = 0;
-  for (std::size_t i = 0; i < grains.moving; ++i) all += volume(grains.radius[i], grains.dimensions);
+  for (std::size_t i = 0; i < grains.moving; ++i) all += filled_by(grains.radius[i], grains.dimensions);
   std::vector<double> own(materials, 0.0), sum(materials, 0.0);  // volume, and ∫ u over it
   double whole = 0;
   for (const std::size_t i : order) {
-    const double part = volume(grains.radius[i], grains.dimensions), u = (below + part / 2) / all;
+    const double part = filled_by(grains.radius[i], grains.dimensions), u = (below + part / 2) / all;
     below += part, whole += part * u;
     if (const auto k = static_cast<std::size_t>(grains.material[i]); k < materials)
       own[k] += part, sum[k] += part * u;

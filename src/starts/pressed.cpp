@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "common/error.hpp"
+#include "core/sphere.hpp"
 
 namespace chute::starts {
 namespace {
@@ -84,8 +84,7 @@ std::optional<Refusal> Pressed::misfit(const Opening& o) const {
   const bool flat = o.dimensions == 2;
   const double densest = flat ? 0.84 : 0.63;
   double filled = 0;
-  for (const double r : o.radii)
-    filled += flat ? std::numbers::pi * r * r : 4.0 / 3 * std::numbers::pi * r * r * r;
+  for (const double r : o.radii) filled += filled_by(r, o.dimensions);
   const double fraction = filled / ((high - low) * o.length * (flat ? 1 : o.width));
   if (fraction > densest)
     return Refusal{"grains.start.high",
