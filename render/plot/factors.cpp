@@ -65,24 +65,32 @@ std::string keys_of(const std::string& name) {
 }
 
 std::optional<Factors> factors_of(const std::vector<const Series*>& series) {
-  std::vector<const Series*> members;  // each name once
-  std::set<std::string> seen;
+  struct Member {
+    std::string name;
+    bool is_line;
+  };
+  std::vector<Member> members;  // each name once
+  std::set<std::string> whole, seen;
   std::size_t alone = 0;  // such as "rotating" beside "mu=0 e_n=0.7" …
+  for (const auto* s : series) whole.insert(s->name);
   for (const auto* s : series) {
     if (s->color || s->marker || s->dash) return {};
-    if (base_name(s->name) != s->name || !seen.insert(s->name).second) continue;
-    if (s->name.find(' ') == std::string::npos)
+    // A series of which only doubtful points are left has its place in the table all the same.
+    const auto name = base_name(s->name);
+    const bool is_part = name != s->name && (!is_doubtful(s->name) || whole.count(name) > 0);
+    if (is_part || !seen.insert(name).second) continue;
+    if (name.find(' ') == std::string::npos)
       ++alone;
     else
-      members.push_back(s);
+      members.push_back({name, is_only_line(*s)});
   }
   if (members.size() < 4 || alone > 1) return {};
   std::optional<Factors> best;
   for (const bool behind_first : {false, true}) {
     std::vector<std::string> first, last;
-    for (const auto* s : members) {
-      const auto cut = behind_first ? s->name.find(' ') : s->name.rfind(' ');
-      first.push_back(s->name.substr(0, cut)), last.push_back(s->name.substr(cut + 1));
+    for (const auto& [name, is_line] : members) {
+      const auto cut = behind_first ? name.find(' ') : name.rfind(' ');
+      first.push_back(name.substr(0, cut)), last.push_back(name.substr(cut + 1));
     }
     const auto firsts = different(first), lasts = different(last);
     const std::size_t entries = firsts.size() + lasts.size();
@@ -93,8 +101,7 @@ std::optional<Factors> factors_of(const std::vector<const Series*>& series) {
     const auto is_pure = [&](const std::vector<std::string>& of_member) {
       std::map<std::string, bool> line;
       for (std::size_t k = 0; k < members.size(); ++k)
-        if (line.try_emplace(of_member[k], is_only_line(*members[k])).first->second !=
-            is_only_line(*members[k]))
+        if (line.try_emplace(of_member[k], members[k].is_line).first->second != members[k].is_line)
           return false;
       return true;
     };
@@ -105,9 +112,9 @@ std::optional<Factors> factors_of(const std::vector<const Series*>& series) {
     std::set<std::string> filled;
     for (std::size_t k = 0; k < members.size(); ++k) {
       const auto &color = last_is_color ? last[k] : first[k], &style = last_is_color ? first[k] : last[k];
-      f.of[members[k]->name] = {index_in(f.colors, color), index_in(f.styles, style)};
-      f.has_lines |= is_only_line(*members[k]);
-      if (!is_only_line(*members[k])) filled.insert(style);
+      f.of[members[k].name] = {index_in(f.colors, color), index_in(f.styles, style)};
+      f.has_lines |= members[k].is_line;
+      if (!members[k].is_line) filled.insert(style);
     }
     if (filled.size() <= most_fills) best = f;
   }

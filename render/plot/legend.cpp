@@ -43,8 +43,10 @@ void LegendBlock::add_hollow() { put(" unsettled", Kind::markers, any_hollow(), 
 void LegendBlock::add(const Figure& figure, const Factors& factors, const std::vector<const Series*>& series,
                       bool colors) {
   const auto any_of = [&](auto holds) -> const Series* {
-    for (const auto* s : series)
-      if (const auto at = factors.of.find(s->name); at != factors.of.end() && holds(at->second, *s)) return s;
+    for (const auto* s : series) {
+      const auto at = factors.of.find(is_doubtful(s->name) ? base_name(s->name) : s->name);
+      if (at != factors.of.end() && holds(at->second, *s)) return s;
+    }
     return nullptr;
   };
   for (std::size_t k = 0; colors && k < factors.colors.size(); ++k) {
@@ -62,7 +64,7 @@ void LegendBlock::add(const Figure& figure, const Factors& factors, const std::v
     const Series* s = any_of([&](auto& at, auto&) { return at.style == static_cast<int>(k); });
     if (!s) continue;
     SeriesLook ink = looks_->at(s->name);
-    ink.color = look_->ink, ink.marker = 0, ink.marked = false;
+    ink.color = look_->ink, ink.marker = 0, ink.marked = false, ink.hollow = false;
     put(factors.styles[k], s->kind, ink, label_of_factor(figure, factors.styles[k]));
   }
   for (const auto* s : series)

@@ -18,6 +18,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "common/address_space.hpp"
 #include "common/error.hpp"
 #include "common/no_broken_pipe.hpp"
 #include "read/vtk_any.hpp"
@@ -184,9 +185,7 @@ std::uint64_t memory_now() {
     if (!read_all(requests, &length, sizeof length)) break;
     std::string path(length, '\0');
     if (!read_all(requests, path.data(), length)) break;
-    const auto most = at_first + memory_at_least + memory_per_byte * size;
-    const rlimit memory{most, RLIM_INFINITY};
-    ::setrlimit(RLIMIT_AS, &memory);
+    limit_address_space(at_first + memory_at_least + memory_per_byte * size);
     Writer out(replies);
     std::string fault;
     try {

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <exception>
 
+#include "common/address_space.hpp"
 #include "common/error.hpp"
 
 namespace chute {
@@ -29,8 +30,8 @@ bool send(int to, const char* data, std::size_t size) {
 
 [[noreturn]] void live_as_child(int to, const std::function<std::string()>& work, std::size_t most_bytes) {
   for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGABRT, SIGBUS}) std::signal(signal, SIG_DFL);
-  const rlimit memory{most_bytes, most_bytes}, no_core{0, 0};
-  ::setrlimit(RLIMIT_AS, &memory);
+  limit_address_space(most_bytes);
+  const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   std::string answer(1, it_worked);
   try {

@@ -12,6 +12,7 @@
 #include "figures/extract.hpp"
 #include "figures/extract_hard.hpp"
 #include "figures/held_fixed.hpp"
+#include "measure/diffusion.hpp"
 #include "run/facts.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
@@ -218,6 +219,19 @@ static std::vector<FigureRow> settled_and_not(const Curve& curve, const std::vec
   return rows;
 }
 
+/// How far balls wander is known of those that go on: runs that end with most of their balls at rest tell of the way there.
+/// They are left out, and the table says so.
+static std::vector<fs::path> going_on(const Curve& curve, std::vector<fs::path> runs, FigureTable& table) {
+  if (curve.file != measure::diffusion_coefficients_file) return runs;
+  const auto stopped = std::erase_if(
+      runs, [](const fs::path& run) { return run::read_flow(run).verdict == measure::Verdict::stopped; });
+  if (stopped > 0)
+    table.comments.push_back(fmt::format("{}{}{} at {}: the balls of {} run{} stopped; {}", curve.panel,
+                                         curve.panel.empty() ? "" : " ", curve.series, curve.x(), stopped,
+                                         stopped > 1 ? "s" : "", runs.empty() ? "no row" : "left out"));
+  return runs;
+}
+
 FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work,
                      const FigureContext& context, const std::string& command_line,
                      const std::function<bool(double)>& progress) {
@@ -246,7 +260,7 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     if (context.quick && recipe.curves[c].full_only) continue;
     const auto rows = recipe.curves[c].extract == Extract::profile
                           ? settled_and_not(recipe.curves[c], runs, table)
-                          : extract(recipe.curves[c], runs);
+                          : extract(recipe.curves[c], going_on(recipe.curves[c], runs, table));
     if (const auto part = left_out(recipe.curves[c], runs);
         part && recipe.curves[c].extract == Extract::scatter)
       table.comments.push_back(fmt::format("{} {}: {:.1f} % of the rows are left out", recipe.curves[c].panel,

@@ -1,4 +1,5 @@
 #pragma once
+#include "measure/diffusion.hpp"
 #include "measure/observer.hpp"
 
 /// What a scene can ask for about single grains on a bed (thesis 4.3): one ball, or many that do not feel each other. All of
@@ -43,7 +44,7 @@ class DiffusionOutput final : public TableOutput<DiffusionOutput, DiffusionSpec>
   static constexpr std::string_view word = "diffusion",
                                     text = "how grains spread along and across, (4.65) and (4.66)";
   double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
-  std::vector<std::string> files() const override { return {"diffusion.csv", "diffusion_coefficients.csv"}; }
+  std::vector<std::string> files() const override { return {"diffusion.csv", diffusion_coefficients_file}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
 

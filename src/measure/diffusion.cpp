@@ -126,7 +126,7 @@ class DiffusionObserver final : public Remembering<DiffusionObserver> {
     coefficients.row({result.drift.mean, result.drift.error, result.D[0].mean, result.D[0].error,
                       result.D[1].mean, result.D[1].error, result.diffusive_from[0], result.diffusive_from[1],
                       result.longest});
-    run_.write("diffusion_coefficients.csv", coefficients.text());
+    run_.write(diffusion_coefficients_file, coefficients.text());
   }
   template <class Archive>
   void serialize(Archive& a) {

@@ -6,6 +6,9 @@
 
 namespace chute::measure {
 
+/// The file of a run that has D_x and D_y.
+inline constexpr const char* diffusion_coefficients_file = "diffusion_coefficients.csv";
+
 /// What pieces of one length of the ways of grains add up to. Components: along, and across (2D has none).
 struct PieceSums {
   double pieces = 0;

@@ -255,6 +255,15 @@ TEST_CASE("names that make a table have one entry for each row and column") {
   };
   REQUIRE(samples() == 6);
   REQUIRE(review(figure, lay_out(figure)).empty());
+  // of which only starts that part are left: it keeps its place, and hollow gets an entry
+  auto parted = figure;
+  parted.panels[0].series.back().name += " apart";
+  const auto parted_looks = assign_looks(parted, look_of(Style::journal));
+  const auto &last = parted_looks.at("e_n=0.7 Phi=3 apart"), &beside = parted_looks.at("e_n=0.1 Phi=3");
+  REQUIRE((last.hollow && last.marker == beside.marker));
+  std::size_t entries = 0;
+  for (const auto& tag : lay_out(parted).list.tags) entries += tag.kind == Tag::Kind::sample;
+  REQUIRE(entries == 7);
   // with lines of a theory among them the colours are told at the curves
   auto& all = figure.panels[0].series;
   for (int k = 0; k < 3; ++k) {
