@@ -104,7 +104,7 @@ class Engine {
   virtual void restore(std::istream& in) = 0;
 
  protected:
-  [[noreturn]] void leave_physics(const std::string& what) const {
+  [[noreturn]] void leave_physics(const std::string& what) const {  ///< WorkError; `what`: the likely cause
     throw WorkError(fmt::format("the run left physics at t = {:.6g} (step {}): {}", now(), step(), what));
   }
   [[noreturn]] void leave_physics(std::size_t grain, const std::string& what) const {

@@ -19,7 +19,7 @@ namespace {
 constexpr double usual_margin = 0.1, fast_margin = 2 * farthest_move;
 
 /// Skins of the neighbour lists, parts of d: grains fly some hundredths of d in a step, so a list holds for some steps.
-constexpr double near_skin = 0.15, far_skin = 0.5;
+constexpr double near_skin = 0.3, far_skin = 1;
 
 /// Passes over what overlaps at the end of a step.
 constexpr int passes = 4;
