@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -152,6 +153,42 @@ class Impacts(unittest.TestCase):
         for e in ("0.4", "0.8"):
             stay = curves("fig-4-36")["a", f"e_n={e}"]
             self.assertTrue(1 < mean(stay) < 2.5)  # of the size of a bead
+
+
+class Diffusion(unittest.TestCase):
+    RECIPE = '''title = "How far balls wander"
+[data]
+scene = "ball-3d.toml"
+set = ["grains.independent=true", "grains.count=8", "run.duration=4", "engine.steps_per_contact=20", "incline.angle=",
+       "output.diffusion={from=1, every=0.01, longest=0.5}"]
+x = "sin theta"
+y = "D_y"
+
+[[data.curve]]
+series = "D_y"
+extract = "value"
+file = "diffusion_coefficients.csv"
+column = "D_y"
+vary = "incline.sin"
+values = [0.004, 0.06]
+
+[plot]
+x = { label = "x" }
+y = { label = "y" }
+'''
+
+    def test_balls_that_stopped_have_none(self):
+        """Far below theta_AB nothing is left to wander when the launch is over: no point, and the table says why."""
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(SCENE, folder)
+            with open(folder + "/wander.toml", "w", encoding="utf-8") as file:
+                file.write(self.RECIPE)
+            subprocess.run([chute, "figure", folder + "/wander.toml", "--quiet", "-o", folder + "/out"], check=True)
+            with open(folder + "/out/wander.csv", encoding="utf-8") as file:
+                lines = file.read().splitlines()
+        self.assertTrue(any(x.startswith("# D_y at 0.004: the balls of 1 run stopped; no row") for x in lines), lines)
+        rows = list(csv.DictReader(x for x in lines if x[0] != "#"))
+        self.assertEqual([float(row["x"]) for row in rows], [0.06])
 
 
 class Engines(unittest.TestCase):
