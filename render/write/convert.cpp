@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
+#include <deque>
 #include <optional>
 #include <sstream>
 
@@ -12,7 +12,6 @@
 #include "common/in_child.hpp"
 #include "common/new_folder.hpp"
 #include "common/pvd.hpp"
-#include "common/side_by_side.hpp"
 #include "read/run_frames.hpp"
 #include "write/frame_file.hpp"
 
@@ -95,18 +94,23 @@ class Conversion {
       throw WorkError("stopped; nothing was written");
   }
 
-  /// Each frame in a process of its own: VTK's readers are not made for threads, and what a frame took is given back.
+  /// Each frame in a process of its own: VTK's readers are not made for threads, and what a frame took is given back. They
+  /// are started and asked for by this one thread, in order.
   void side_by_side() {
-    std::atomic<std::size_t> done{1};
-    const auto goes_on = [&](double) { return !job_.progress || job_.progress(done, frames_.size()); };
-    chute::side_by_side(frames_.size() - 1, job_.jobs, goes_on, [&](std::size_t piece, const Report& report) {
-      const auto k = piece + 1;
-      const auto died =
-          fmt::format("{}: cannot be converted: the process that read it ended", frames_[k].path.string());
-      written_[k] = written_from(in_child([&] { return text_of(add(k)); }, died));
-      ++done;
-      report(1);
-    });
+    std::deque<Child> running;
+    std::size_t done = 1;
+    const auto take_first = [&] {
+      written_[done] = written_from(running.front().result());
+      running.pop_front();
+      told(++done);
+    };
+    for (std::size_t k = 1; k < frames_.size(); ++k) {
+      if (running.size() == static_cast<std::size_t>(job_.jobs)) take_first();
+      running.emplace_back(
+          [this, k] { return text_of(add(k)); },
+          fmt::format("{}: cannot be converted: the process that read it ended", frames_[k].path.string()));
+    }
+    while (!running.empty()) take_first();
   }
 
   Written add(std::size_t k) {

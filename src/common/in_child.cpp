@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <csignal>
 #include <exception>
+#include <utility>
 
 #include "common/address_space.hpp"
 #include "common/error.hpp"
@@ -44,32 +45,56 @@ bool send(int to, const char* data, std::size_t size) {
 
 }  // namespace
 
-std::string in_child(const std::function<std::string()>& work, const std::string& when_it_dies,
-                     std::size_t most_bytes) {
+Child::Child(const std::function<std::string()>& work, std::string when_it_dies, std::size_t most_bytes)
+    : when_it_dies_(std::move(when_it_dies)) {
   int ends[2];
   if (::pipe(ends) != 0) throw WorkError("no pipe to a reading process can be had");
-  const auto child = ::fork();
-  if (child < 0) throw WorkError("no reading process can be had");
-  if (child == 0) {
+  process_ = ::fork();
+  if (process_ == 0) {
     ::close(ends[0]);
     live_as_child(ends[1], work, most_bytes);
   }
   ::close(ends[1]);
+  from_ = ends[0];
+  if (process_ < 0) {
+    ::close(from_);
+    throw WorkError("no reading process can be had");
+  }
+}
+
+Child::~Child() {
+  if (process_ < 0) return;
+  ::kill(process_, SIGKILL);
+  wait();
+}
+
+int Child::wait() {
+  ::close(from_);
+  int status = 0;
+  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  return status;
+}
+
+std::string Child::result() {
   std::string answer;
   char buffer[65536];
   for (;;) {
-    const auto got = ::read(ends[0], buffer, sizeof buffer);
+    const auto got = ::read(from_, buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
     answer.append(buffer, static_cast<std::size_t>(got));
   }
-  ::close(ends[0]);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) throw InputError(when_it_dies);
+  const int status = wait();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) throw InputError(when_it_dies_);
   if (answer[0] == it_threw) throw InputError(answer.substr(1));
   return answer.substr(1);
+}
+
+std::string in_child(const std::function<std::string()>& work, const std::string& when_it_dies,
+                     std::size_t most_bytes) {
+  return Child(work, when_it_dies, most_bytes).result();
 }
 
 }  // namespace chute
