@@ -1,5 +1,6 @@
 #include "common/in_child.hpp"
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,8 +28,12 @@ bool send(int to, const char* data, std::size_t size) {
   return true;
 }
 
-[[noreturn]] void live_as_child(int to, const std::function<std::string()>& work, std::size_t most_bytes) {
+[[noreturn]] void live_as_child(int to, pid_t parent, const std::function<std::string()>& work,
+                                std::size_t most_bytes) {
   for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGABRT, SIGBUS}) std::signal(signal, SIG_DFL);
+  // What nobody waits for any more would keep files and locks of its parent's open for as long as it reads.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
   const rlimit memory{most_bytes, most_bytes}, no_core{0, 0};
   ::setrlimit(RLIMIT_AS, &memory);
   ::setrlimit(RLIMIT_CORE, &no_core);
@@ -47,11 +52,12 @@ std::string in_child(const std::function<std::string()>& work, const std::string
                      std::size_t most_bytes) {
   int ends[2];
   if (::pipe(ends) != 0) throw WorkError("no pipe to a reading process can be had");
+  const auto parent = ::getpid();
   const auto child = ::fork();
   if (child < 0) throw WorkError("no reading process can be had");
   if (child == 0) {
     ::close(ends[0]);
-    live_as_child(ends[1], work, most_bytes);
+    live_as_child(ends[1], parent, work, most_bytes);
   }
   ::close(ends[1]);
   std::string answer;
