@@ -51,9 +51,18 @@ Written written_from(const std::string& text) {
   return w;
 }
 
+/// Is it a name of what a conversion writes: frames, frames.pvd, frames.csv, 000012.dump?
+bool is_converted(const fs::path& name) {
+  const auto stem = name.stem().string(), ending = name.extension().string();
+  if (stem == "frames" && (ending.empty() || ending == ".pvd")) return true;
+  const bool known = ending.size() > 1 && std::ranges::count(endings, std::string_view(ending).substr(1)) > 0;
+  return known && (stem == "frames" ||
+                   (stem.size() >= 6 && stem.find_first_not_of("0123456789") == std::string::npos));
+}
+
 class Conversion {
  public:
-  explicit Conversion(const ConvertJob& job) : job_(job), folder_(job.folder, beside) {}
+  explicit Conversion(const ConvertJob& job) : job_(job), folder_(job.folder, is_converted, beside) {}
 
   ConvertReport go() {
     if (job_.one_file && job_.format == Format::vtp)

@@ -69,7 +69,9 @@ lammps::Deck deck_of(const scene::Scene& scene, double dt, const TomlReader& rea
 }
 
 void export_scene(const ExportArguments& a) {
-  NewFolder made(a.folder);
+  NewFolder made(a.folder, [](const fs::path& name) {
+    return name == "scene.toml" || name == "grains.data" || name == "in.lammps";
+  });
   const bool of_run = fs::is_directory(a.scene);
   const auto input = read_input(of_run ? (fs::path(a.scene) / "scene.toml").string() : a.scene);
   refuse_other_methods(input, a.settings);

@@ -28,7 +28,7 @@ struct MeasureArguments {
 };
 
 void measure(const MeasureArguments& a) {
-  const NewFolder free(a.folder);  // before much is read
+  const NewFolder free(a.folder, replay::is_measured);  // before much is read
   const FileSays says{a.meanings.read(), a.bed};
   const auto [frames, times] = timed_frames(a.sources, says.meanings);
   watch_for_interrupt();

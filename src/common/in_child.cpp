@@ -1,5 +1,6 @@
 #include "common/in_child.hpp"
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -29,8 +30,12 @@ bool send(int to, const char* data, std::size_t size) {
   return true;
 }
 
-[[noreturn]] void live_as_child(int to, const std::function<std::string()>& work, std::size_t most_bytes) {
+[[noreturn]] void live_as_child(int to, pid_t parent, const std::function<std::string()>& work,
+                                std::size_t most_bytes) {
   for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGABRT, SIGBUS}) std::signal(signal, SIG_DFL);
+  // What nobody waits for any more would keep files and locks of its parent's open for as long as it reads.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
   limit_address_space(most_bytes);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
@@ -49,10 +54,11 @@ Child::Child(const std::function<std::string()>& work, std::string when_it_dies,
     : when_it_dies_(std::move(when_it_dies)) {
   int ends[2];
   if (::pipe(ends) != 0) throw WorkError("no pipe to a reading process can be had");
+  const auto parent = ::getpid();
   process_ = ::fork();
   if (process_ == 0) {
     ::close(ends[0]);
-    live_as_child(ends[1], work, most_bytes);
+    live_as_child(ends[1], parent, work, most_bytes);
   }
   ::close(ends[1]);
   from_ = ends[0];

@@ -1,59 +1,44 @@
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
-#include <system_error>
-#include <utility>
 #include <vector>
 
-#include "common/error.hpp"
+#include "common/file_lock.hpp"
 
 namespace chute {
 
 /// A folder that a verb fills from nothing. What is in it when the verb fails goes again, with the folders that had to be
-/// made for it, so that the same command finds its place free; what was there before stays.
+/// made for it, so that the same command finds its place free; what was there before stays. While it is filled it is
+/// locked: a lock's file that nobody holds says that its verb was killed, and what that one left is taken over.
 class NewFolder {
  public:
-  /// InputError if something is there that is no empty folder; `why` ends its message.
-  explicit NewFolder(std::filesystem::path path, const std::string& why = {}) : path_(std::move(path)) {
-    if (path_.empty()) throw InputError("the folder for what is written: its name is empty");
-    std::error_code error;
-    const bool there = std::filesystem::exists(path_, error);
-    if (there && !std::filesystem::is_directory(path_, error))
-      throw InputError(path_.string() + ": is a file; name a new folder" + why);
-    if (there && !std::filesystem::is_empty(path_, error))
-      throw InputError(path_.string() + ": is not empty; name a new folder" + why);
-  }
-  ~NewFolder() {
-    if (kept_ || !made_) return;
-    std::error_code ignored;
-    std::vector<std::filesystem::path> inside;
-    for (auto entry = std::filesystem::directory_iterator(path_, ignored);
-         entry != std::filesystem::directory_iterator(); entry.increment(ignored))
-      inside.push_back(entry->path());
-    for (const auto& one : inside) std::filesystem::remove_all(one, ignored);
-    for (const auto& folder : fresh_) std::filesystem::remove(folder, ignored);  // only if it is empty
-  }
+  /// Does the verb write something of that name into the folder?
+  using IsOwn = std::function<bool(const std::filesystem::path& name)>;
+
+  /// InputError if something is there that is neither an empty folder nor what a killed verb left, all of it by names that
+  /// are `own`; WorkError if another process is filling it. `why` ends the message.
+  explicit NewFolder(std::filesystem::path path, IsOwn own, std::string why = {});
+  ~NewFolder();
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
 
-  /// WorkError if it cannot be made.
-  void make() {
-    if (made_) return;
-    std::error_code error;
-    for (auto folder = path_; !folder.empty() && !std::filesystem::exists(folder, error);
-         folder = folder.parent_path())
-      fresh_.push_back(folder);
-    std::filesystem::create_directories(path_, error);
-    if (error) throw WorkError(path_.string() + ": cannot be made: " + error.message());
-    made_ = true;
-  }
+  /// Makes it, locks it and empties it of what a killed verb left. WorkError if it cannot be made.
+  void make();
   /// The work is done, or what is there is worth keeping.
   void keep() { kept_ = true; }
 
  private:
   std::filesystem::path path_;
+  IsOwn own_;
+  std::string why_;
   std::vector<std::filesystem::path> fresh_;  // what make() made, innermost first
+  std::optional<FolderLock> lock_;
   bool made_ = false, kept_ = false;
+
+  void refuse_used() const;
+  void empty() const noexcept;
 };
 
 }  // namespace chute

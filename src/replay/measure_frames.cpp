@@ -52,7 +52,7 @@ double bead_spacing(const Snapshot& frame, double diameter) {
 
 class Measuring {
  public:
-  explicit Measuring(const MeasureJob& job) : job_(job), folder_(job.folder) {}
+  explicit Measuring(const MeasureJob& job) : job_(job), folder_(job.folder, is_measured) {}
 
   MeasureReport go() {
     choose_frames();
@@ -221,6 +221,11 @@ class Measuring {
 };
 
 }  // namespace
+
+bool is_measured(const fs::path& name) {
+  const auto files = measure::all_files();
+  return name == "contacts" || name == "contacts.pvd" || std::ranges::count(files, name.string()) > 0;
+}
 
 MeasureReport measure_frames(const MeasureJob& job) { return Measuring(job).go(); }
 

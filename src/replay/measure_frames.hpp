@@ -28,6 +28,9 @@ struct MeasureReport {
   std::vector<std::string> notes;    ///< what files lack, and what is empty for it
 };
 
+/// Is it the name of something that is written into the folder?
+bool is_measured(const std::filesystem::path& name);
+
 /// Plays the frames to the observers of a run and writes what they tell. InputError if there is nothing to measure.
 MeasureReport measure_frames(const MeasureJob& job);
 

@@ -4,6 +4,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 from tiny_scene import LAWS, SIXTY, table
@@ -219,6 +220,38 @@ class Frames(unittest.TestCase):
         for words in (("convert", "flat", "--to", "csv", "-o"), ("measure", "flat", "-o"), ("export", "flat", "--lammps")):
             self.assertIn("is a file; name a new folder", self.call(*words, "flat.toml", status=2).stderr)
             self.assertIn("its name is empty", self.call(*words, "", status=2).stderr)
+
+    def test_what_a_killed_one_left_is_taken_over(self):
+        """Killed at its second frame, which is a pipe that nobody writes into; not while it lives, nor what others put there."""
+        text = "2\n" + 'Lattice="8 0 0 0 8 0 0 0 8" Properties=species:S:1:pos:R:3:radius:R:1 Time=%d' + "\nA 0 0 0 .5\nA 0.9 0 0 .5\n"
+        os.mkdir(self.path("halts"))
+        with open(self.path("halts", "0.xyz"), "w", encoding="utf-8") as file:
+            file.write(text % 0)
+        os.mkfifo(self.path("halts", "1.xyz"))
+        sources = [os.path.join("halts", "%d.xyz" % k) for k in (0, 1)]
+        for words in (("--to", "csv"), ("--to", "vtp", "--jobs", 1), ("--to", "xyz", "--one-file")):
+            out = self.new()
+            killed = subprocess.Popen([chute, "convert", *sources, *map(str, words), "-o", out], cwd=self.folder,
+                                      stderr=subprocess.DEVNULL)
+            for _ in range(1000):
+                if os.path.isdir(self.path(out)) and os.listdir(self.path(out)):
+                    break
+                time.sleep(0.01)
+            whole = ("convert", "flat", *words, "-o", out)
+            self.assertIn("in use by process", self.call(*whole, status=1).stderr)
+            killed.kill()
+            killed.wait()
+            time.sleep(0.1)
+            self.assertNotEqual(os.listdir(self.path(out)), [])
+            with open(self.path(out, "notes.txt"), "w", encoding="utf-8") as file:
+                file.write("years of work")
+            self.assertIn("is not empty", self.call(*whole, status=2).stderr)
+            os.remove(self.path(out, "notes.txt"))
+            again = self.new()
+            self.call(*whole)
+            self.call(*whole[:-1], again)
+            self.assertEqual(sorted(os.listdir(self.path(out))), sorted(os.listdir(self.path(again))))
+            self.assertIn("is not empty", self.call(*whole, status=2).stderr)  # a whole one is nobody's to take
 
     def test_numbers_beyond_all_bounds_are_refused(self):
         frame = "2\nProperties=species:S:1:pos:R:3:radius:R:1\nA 0 0 0 .5\nA %s 3 3 .5\n"

@@ -1,9 +1,11 @@
 """LAMMPS moves grains as the soft engine does: test_lammps.py CHUTE. Exit status 77 where the program lmp is missing."""
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "app"))
@@ -273,6 +275,48 @@ class Lammps(unittest.TestCase):
         self.assertEqual(len(series["x"]), len(whole["x"]))
         self.assertAlmostEqual(float(series["x"][-1]), float(whole["x"][-1]), delta=1e-3)
         self.assertEqual([name for name in os.listdir(self.path("tmp")) if name.startswith("chute-")], [])
+
+    def at_work(self):
+        """Command lines of the processes that work in the folder for temporary files: LAMMPS, its ranks and mpirun."""
+        there = {}
+        for pid in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                if os.readlink("/proc/%s/cwd" % pid).startswith(os.path.realpath(self.path("tmp"))):
+                    with open("/proc/%s/cmdline" % pid, encoding="utf-8") as file:
+                        there[int(pid)] = file.read().split("\0")[0]
+            except OSError:  # ended meanwhile, or another user's
+                pass
+        return there
+
+    def within(self, seconds, is_so):
+        end = time.monotonic() + seconds
+        while not is_so() and time.monotonic() < end:
+            time.sleep(0.05)
+        return is_so()
+
+    @unittest.skipUnless(THERE and shutil.which("mpirun"), "lmp and mpirun")
+    def test_nothing_that_it_started_outlives_it(self):
+        """Killed while LAMMPS is at steps that do not end: it is halted, as nothing else is sure to take long. Asked to end, chute
+        ends it in order."""
+        self.write("flow.toml", FLOW)
+        around = dict(os.environ, TMPDIR=self.path("tmp"))
+        self.addCleanup(lambda: [os.kill(pid, signal.SIGKILL) for pid in self.at_work()])
+        for how, ranks in ((signal.SIGKILL, 1), (signal.SIGKILL, 2), (signal.SIGTERM, 1), (signal.SIGINT, 2)):
+            run = subprocess.Popen([chute, "run", "flow.toml", "--set", "engine.method=lammps", "--set", "run.duration=2e5",
+                                    "--set", "output={series={every=1e5}}", "--ranks", str(ranks), "-o", "run", "--force", "--quiet"],
+                                   cwd=self.folder, env=around, stderr=subprocess.DEVNULL)
+
+            def lmps():
+                return [pid for pid, word in self.at_work().items() if os.path.basename(word) == "lmp"]
+            self.assertTrue(self.within(60, lambda: len(lmps()) == ranks), self.at_work())
+            self.assertTrue(self.within(60, lambda: os.path.exists(self.path("run", "checkpoint"))))
+            self.assertIsNone(run.poll())
+            if how == signal.SIGKILL:
+                for pid in lmps():
+                    os.kill(pid, signal.SIGSTOP)
+            run.send_signal(how)
+            run.wait()
+            self.assertTrue(self.within(5, lambda: not self.at_work()), (how, ranks, self.at_work()))
 
     def test_what_it_has_not_is_refused_in_a_line(self):
         self.write("flow.toml", FLOW)

@@ -41,6 +41,16 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return all;
 }
 
+/// The command so that it is killed when the thread that started it ends, in whatever way: a chute that is killed closes no
+/// connection in order, LAMMPS sees that its input has ended only when it has done the steps that it was told, and mpirun
+/// puts each rank into a process group of its own, where a signal for mpirun's does not reach it. The kernel keeps that
+/// wish over exec; setpriv, of the essential package util-linux, has it noted between fork and exec, which posix_spawn
+/// cannot.
+std::vector<std::string> bound_to_parent(std::vector<std::string> words) {
+  if (!find_program("setpriv").empty()) words.insert(words.begin(), {"setpriv", "--pdeathsig", "KILL"});
+  return words;
+}
+
 }  // namespace
 
 fs::path find_program(const std::string& name) {
@@ -75,11 +85,12 @@ LammpsProcess::LammpsProcess(int ranks) {
 }
 
 void LammpsProcess::start(int ranks) {
-  std::vector<std::string> words{"lmp", "-log", "none", "-nocite"};
+  auto words = bound_to_parent({"lmp", "-log", "none", "-nocite"});
   if (ranks > 1) {
     std::vector<std::string> mpi{"mpirun", "-n", std::to_string(ranks), "--oversubscribe"};
     if (::geteuid() == 0) mpi.emplace_back("--allow-run-as-root");
-    words.insert(words.begin(), mpi.begin(), mpi.end());
+    mpi.insert(mpi.end(), words.begin(), words.end());
+    words = bound_to_parent(std::move(mpi));
   }
   int pipe[2];
   if (::pipe2(pipe, O_CLOEXEC) != 0)
