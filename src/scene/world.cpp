@@ -171,6 +171,28 @@ Sizes sizes_of(const Scene& scene) {
   return sizes;
 }
 
+/// The shortest interval of the outputs, or the small part of it that all of them are a whole number of: where a step
+/// divides that, series every 0.2 and frames every 0.5 both come when they are due. Where no such part is large enough, as
+/// with intervals of 1 and √2, the shortest one, and what does not fit comes at the step that is nearest.
+double interval_of_all_outputs(const Scene& scene) {
+  constexpr int most_parts = 12;  // a step that is cut much shorter than it needs to be costs as much
+  constexpr double whole = 1e-9;  // what doubles make of a ratio of decimal numbers
+  double shortest = std::numeric_limits<double>::infinity();
+  std::vector<double> intervals;
+  for (const auto& output : scene.output)
+    if (output->wanted() && std::isfinite(output->rhythm())) {
+      intervals.push_back(output->rhythm());
+      shortest = std::min(shortest, intervals.back());
+    }
+  for (int parts = 1; parts <= most_parts; ++parts)
+    if (std::ranges::all_of(intervals, [&](double interval) {
+          const double count = interval / shortest * parts;
+          return std::abs(count - std::round(count)) <= whole * count;
+        }))
+      return shortest / parts;
+  return shortest;
+}
+
 }  // namespace
 
 engines::Setting setting_of(const Scene& scene) {
@@ -188,9 +210,7 @@ engines::Setting setting_of(const Scene& scene) {
     const auto& size = scene.domain.size;
     s.size[k] = periods.length[k] > 0 ? periods.length[k] : size && k < size->size() ? (*size)[k] : 0;
   }
-  s.between_outputs = std::numeric_limits<double>::infinity();
-  for (const auto& output : scene.output)
-    if (output->wanted()) s.between_outputs = std::min(s.between_outputs, output->rhythm());
+  s.between_outputs = interval_of_all_outputs(scene);
   s.contact = scene.contact;
   s.materials = sizes.materials;
   s.mean_diameter = sizes.mean_diameter;
