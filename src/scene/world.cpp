@@ -10,6 +10,7 @@
 #include "core/random.hpp"
 #include "core/sphere.hpp"
 #include "scene/forms.hpp"
+#include "scene/intervals.hpp"
 #include "scene/species.hpp"
 #include "starts/launch_keys.hpp"
 
@@ -169,28 +170,6 @@ Sizes sizes_of(const Scene& scene) {
   sizes.lightest = *std::min_element(masses.begin(), masses.end());
   sizes.count = static_cast<std::int64_t>(radii.size());
   return sizes;
-}
-
-/// The shortest interval of the outputs, or the small part of it that all of them are a whole number of: where a step
-/// divides that, series every 0.2 and frames every 0.5 both come when they are due. Where no such part is large enough, as
-/// with intervals of 1 and √2, the shortest one, and what does not fit comes at the step that is nearest.
-double interval_of_all_outputs(const Scene& scene) {
-  constexpr int most_parts = 12;  // a step that is cut much shorter than it needs to be costs as much
-  constexpr double whole = 1e-9;  // what doubles make of a ratio of decimal numbers
-  double shortest = std::numeric_limits<double>::infinity();
-  std::vector<double> intervals;
-  for (const auto& output : scene.output)
-    if (output->wanted() && std::isfinite(output->rhythm())) {
-      intervals.push_back(output->rhythm());
-      shortest = std::min(shortest, intervals.back());
-    }
-  for (int parts = 1; parts <= most_parts; ++parts)
-    if (std::ranges::all_of(intervals, [&](double interval) {
-          const double count = interval / shortest * parts;
-          return std::abs(count - std::round(count)) <= whole * count;
-        }))
-      return shortest / parts;
-  return shortest;
 }
 
 }  // namespace
