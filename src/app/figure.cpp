@@ -11,6 +11,7 @@
 #include "app/progress.hpp"
 #include "app/verbs.hpp"
 #include "common/atomic_file.hpp"
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "common/key_table.hpp"
 #include "common/share_folder.hpp"
@@ -187,7 +188,7 @@ std::string csv_text(const Recipe& recipe, const figures::FigureTable& table) {
     else
       csv.row({row.panel, row.series}, {row.x, row.y, x_err, y_err});
   }
-  return csv.text();
+  return with_column_comments("figure", csv.text(), true);
 }
 
 }  // namespace

@@ -90,6 +90,7 @@ void import_run(const ImportArguments& a) {
   options.existing = a.force ? run::Existing::replace : run::Existing::refuse;
   options.checkpoint_seconds = 0;
   options.command_line = command_line();
+  options.way_on = "the same command with --force begins again";
   watch_for_interrupt();
   Progress progress("import", a.quiet);
   options.progress = [&](double part) {
@@ -97,7 +98,7 @@ void import_run(const ImportArguments& a) {
     return !interrupted();
   };
   const auto result = run::run_scene(scene, options);
-  if (!result.finished) throw WorkError("stopped; the same command with --force begins again");
+  if (!result.finished) throw WorkError("stopped; " + options.way_on);
   if (!a.quiet)
     tell("import: {} steps of {} grains; files in {}\n", result.steps, result.grains,
          options.directory.string());

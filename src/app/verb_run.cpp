@@ -56,6 +56,7 @@ void run(const RunArguments& arguments) {
   options.threads = arguments.threads;
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.command_line = command_line();
+  options.way_on = fmt::format("go on with: chute run {} --resume", options.directory.string());
   // An interrupted run leaves a checkpoint, so that --resume goes on from there.
   watch_for_interrupt();
   if (experiments::is_experiment(input.text, input.name)) return experiment(arguments, input, options);
@@ -83,8 +84,7 @@ void run(const RunArguments& arguments) {
   };
   options.warn = [](const std::string& what) { tell("warning: {}\n", what); };
   const auto result = run::run_scene(scene, options);
-  if (!result.finished)
-    throw WorkError(fmt::format("stopped; go on with: chute run {} --resume", options.directory.string()));
+  if (!result.finished) throw WorkError("stopped; " + options.way_on);
   if (!arguments.quiet)
     tell(
         "run: {} steps in {}, {:.1f} million grain steps per second; files in {}\n"

@@ -414,6 +414,20 @@ std::string with_column_comments(std::string_view file, const std::string& csv, 
   return csv.substr(0, header) + lines + csv.substr(header);
 }
 
+std::vector<std::string> column_lines(std::string_view file, const std::vector<std::string>& columns) {
+  const auto& tables = table_texts();
+  const auto table = std::ranges::find(tables, file, &TableText::file);
+  std::vector<std::string> lines;
+  if (table == tables.end()) return lines;
+  for (const auto& name : columns)
+    if (const auto text = column_text(*table, name)) {
+      const auto unit = units_of(*text);
+      lines.push_back(fmt::format("{}{} of {}{}: {}", column_comment, name, file,
+                                  unit.empty() ? "" : " (" + unit + ")", text->meaning));
+    }
+  return lines;
+}
+
 std::string column_tables() {
   std::string text;
   for (const auto& table : table_texts()) {

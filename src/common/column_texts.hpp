@@ -31,6 +31,9 @@ const TableText* find_table_text(std::string_view file, const std::vector<std::s
 /// A table's text with what its columns mean, their units and how errors were made as comment lines before the header; as it
 /// was if its file name is not known. Columns that are not known, such as a sweep's axes, have no line.
 std::string with_column_comments(std::string_view file, const std::string& csv, bool is_si);
+/// Such lines, without the #, of those of these columns that the table of that file name knows, with both units; for
+/// files that are made of such columns.
+std::vector<std::string> column_lines(std::string_view file, const std::vector<std::string>& columns);
 /// What such a line begins with, behind the #.
 inline constexpr std::string_view column_comment = "column ";
 

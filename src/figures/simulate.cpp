@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "common/hash.hpp"
 #include "common/side_by_side.hpp"
@@ -137,6 +138,15 @@ bool is_timed(const DataRecipe& recipe) {
   });
 }
 
+/// What the columns of the runs' tables mean that a curve draws, as comments.
+std::vector<std::string> meanings_of(const Curve& curve) {
+  const auto file = curve.file                          ? fs::path(*curve.file).filename().string()
+                    : curve.extract == Extract::profile ? std::string("profiles.csv")
+                    : curve.extract == Extract::series  ? std::string("series.csv")
+                                                        : std::string();
+  return column_lines(file, {curve.against, curve.column});
+}
+
 /// The table of a recipe whose curves name runs that are there.
 FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
   FigureTable table;
@@ -147,6 +157,7 @@ FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
     for (const auto& run : curve.runs) runs.push_back(recipe_file.parent_path() / run);
     table.comments.push_back(fmt::format("{}{}: from {}", curve.panel.empty() ? "" : curve.panel + " ",
                                          curve.series, fmt::join(curve.runs, ", ")));
+    for (auto& line : meanings_of(curve)) table.comments.push_back(std::move(line));
     const auto rows = extract(curve, runs);
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }
@@ -258,6 +269,7 @@ FigureTable simulate(const DataRecipe& recipe, const fs::path& recipe_file, cons
     if (recipe.curves[c].extract == Extract::profile && (c == 0 || plan.of_curve[c] != plan.of_curve[c - 1]))
       table.comments.push_back(recipe.curves[c].series + ": " + verdicts_of(runs));
     if (context.quick && recipe.curves[c].full_only) continue;
+    for (auto& line : meanings_of(recipe.curves[c])) table.comments.push_back(std::move(line));
     const auto rows = recipe.curves[c].extract == Extract::profile
                           ? settled_and_not(recipe.curves[c], runs, table)
                           : extract(recipe.curves[c], going_on(recipe.curves[c], runs, table));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "common/keys.hpp"
 #include "figures/formula.hpp"
@@ -160,6 +161,9 @@ FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::pa
   made.comments = {fmt::format("{}: {} over {} of {}{}", columns.series.empty() ? columns.y : columns.series,
                                columns.y, columns.x, file.string(),
                                columns.by ? ", a series for each " + *columns.by : "")};
+  for (auto& line : column_lines(file.filename().string(), {columns.x, columns.y, columns.x_err.value_or(""),
+                                                            columns.y_err.value_or("")}))
+    made.comments.push_back(std::move(line));
   made.x_times = table.is_time(columns.x), made.y_times = table.is_time(columns.y);
   const auto known = [](double v) { return std::isfinite(v) ? std::optional(v) : std::nullopt; };
   for (std::size_t i = 0; i < x.size(); ++i)

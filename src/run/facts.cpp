@@ -89,11 +89,28 @@ std::vector<std::string> outputs_beyond_the_end(const scene::Scene& scene) {
   return told;
 }
 
+/// Outputs whose times are rounded to steps, for no step within reason divides all intervals.
+std::vector<std::string> outputs_between_steps(const scene::Scene& scene) {
+  constexpr double whole = 1e-6;  // of a step, far above what doubles lose
+  const double step = scene.engine->step(scene::setting_of(scene));
+  std::vector<std::string> told;
+  for (const auto& output : scene.output) {
+    if (!output->wanted() || !std::isfinite(output->rhythm())) continue;
+    const double steps = output->rhythm() / step;
+    if (steps > 1 && std::abs(steps - std::round(steps)) > whole * steps)
+      told.push_back(fmt::format(
+          "output.{}: {:g} between two looks is no whole number of steps: each comes at the step that is nearest",
+          output.word(), output->rhythm()));
+  }
+  return told;
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const scene::Scene& scene) {
   auto told = scene.engine->warnings(scene::setting_of(scene));
   for (auto& warning : outputs_beyond_the_end(scene)) told.push_back(std::move(warning));
+  for (auto& warning : outputs_between_steps(scene)) told.push_back(std::move(warning));
   return told;
 }
 

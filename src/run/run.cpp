@@ -35,6 +35,17 @@ class Run {
         checkpoint_due_(scene_.checkpoint, scene_.checkpoint, session_.time_step()) {}
 
   RunResult go() {
+    try {
+      return run_to_its_end();
+    } catch (const WorkError& error) {
+      if (options_.way_on.empty() || left_physics_ || !std::filesystem::exists(directory_.file("checkpoint")))
+        throw;
+      throw WorkError(fmt::format("{}; when that is mended, {}", error.what(), options_.way_on));
+    }
+  }
+
+ private:
+  RunResult run_to_its_end() {
     const auto begin = Clock::now();
     begin_or_put_back();
     const auto first = engine().step(), last = session_.last_step();
@@ -63,7 +74,6 @@ class Run {
             session_.series().rows() > 0 ? session_.series().starts() : std::vector<measure::Flow>{}};
   }
 
- private:
   scene::Scene scene_;
   const RunOptions& options_;
   std::string resolved_;
@@ -76,6 +86,7 @@ class Run {
   Clock::time_point shown_ = reported_, began_ = reported_;
   Clock::duration saving_takes_{}, showing_takes_{};
   std::int64_t first_step_ = 0;
+  bool left_physics_ = false;
   std::string started_ = RunRecord::now();
 
   /// The scene as the run in the folder can go on with it.
@@ -92,15 +103,18 @@ class Run {
     const auto from = engine().step();
     const auto before = Clock::now();
     try {
-      session_.advance(std::min(checkpoint_due_.after(from), from + steps_per_report_));
+      session_.move(std::min(checkpoint_due_.after(from), from + steps_per_report_));
     } catch (const WorkError& error) {
+      left_physics_ = true;
       write_run_json("left physics", error.what());
       throw;
     }
+    session_.look();
     tune_report(engine().step() - from, Clock::now() - before);
   }
 
-  /// As far as the first checkpoint. Before it there is nothing to resume, and a run that was to be replaced comes back.
+  /// As far as the first checkpoint. Before it there is nothing to resume: a run that was to be replaced comes back, and
+  /// a folder that was new goes.
   void begin_or_put_back() {
     try {
       begin_();

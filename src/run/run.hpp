@@ -18,6 +18,8 @@ struct RunOptions {
   int threads = 1;
   double checkpoint_seconds = 300;  ///< of the clock on the wall, between checkpoints at most; 0: any time
   std::string command_line;         ///< for run.json
+  /// How to go on once a failure, such as a full disk, is mended: ends its message where a checkpoint stands. Empty: nothing.
+  std::string way_on;
   /// Called now and then with the part done, 0 to 1. Returning false stops the run after a checkpoint.
   std::function<bool(double part)> progress;
   /// Told what the user should know, though the run goes on.

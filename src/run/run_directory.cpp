@@ -80,7 +80,7 @@ std::vector<fs::path> siblings_of(const fs::path& path, const std::string& what)
 }
 
 /// Removes what is chute's; the rest moves to `heir`, unless such a name is there.
-void remove_run(const fs::path& folder, const fs::path& heir) {
+void empty_of_run(const fs::path& folder, const fs::path& heir) {
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
   for (const auto& entry : entries) {
@@ -89,6 +89,10 @@ void remove_run(const fs::path& folder, const fs::path& heir) {
     else if (!heir.empty() && !fs::exists(heir / entry.filename()))  // never over another
       fs::rename(entry, heir / entry.filename());
   }
+}
+
+void remove_run(const fs::path& folder, const fs::path& heir) {
+  empty_of_run(folder, heir);
   std::error_code error;
   fs::remove(folder, error);  // not if something of other people's had to stay
 }
@@ -100,9 +104,18 @@ fs::path RunDirectory::sibling(const char* what) const {
 }
 
 RunDirectory::RunDirectory(const fs::path& path, Existing existing) : path_(path) {
+  const auto free_place = [this] {
+    lock_.reset();
+    std::error_code ignored;
+    if (made_) fs::remove(path_, ignored);  // only if it is empty
+  };
   try {
     prepare(existing);
+  } catch (const WorkError&) {
+    free_place();
+    throw;
   } catch (const fs::filesystem_error& error) {
+    free_place();
     throw WorkError(fmt::format("{}: cannot write: {}", path_.string(), error.code().message()));
   }
 }
@@ -120,7 +133,7 @@ void RunDirectory::prepare(Existing existing) {
     if (old.size() == 1 && !FolderLock::is_held(old.front()))
       fs::rename(old.front(), path_);
     else
-      fs::create_directories(path_);
+      made_ = fs::create_directories(path_);
     flush_folder(folder_of(path_));
   }
   lock_.emplace(path_);
@@ -128,6 +141,7 @@ void RunDirectory::prepare(Existing existing) {
   if (used && !is_run(path_)) refuse("holds files that are not a run; give another folder with -o");
   if (used && existing == Existing::refuse)
     refuse("a run is already there; give --resume to go on with it, --force to replace it, or -o another");
+  fresh_ = !used;
   resumes_ = used && existing == Existing::resume && fs::exists(path_ / "checkpoint");
   if (used && existing == Existing::resume && !resumes_ && has_ended(path_))
     refuse("has no checkpoint to resume from; give --force to start again");
@@ -176,8 +190,19 @@ void RunDirectory::finish() {
   }
 }
 
+void RunDirectory::leave_no_trace() const noexcept {
+  try {
+    made_ ? remove_run(path_, {}) : empty_of_run(path_, {});
+  } catch (const fs::filesystem_error&) {
+    // What stays is still a run that --force replaces.
+  }
+}
+
 void RunDirectory::put_back() noexcept {
-  if (!replaces_ || !beside_ || fs::exists(path_ / "checkpoint")) return;
+  std::error_code error;
+  if (fs::exists(path_ / "checkpoint", error)) return;
+  if (fresh_) return leave_no_trace();
+  if (!replaces_ || !beside_) return;
   if (exchanged_ && ::renameat2(AT_FDCWD, beside_->c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) != 0)
     return;
   try {

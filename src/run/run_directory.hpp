@@ -31,7 +31,8 @@ class RunDirectory {
 
   /// The run is whole: runs that it replaced go. What in their folders was not chute's moves into this one.
   void finish();
-  /// The run did not get as far as something that can be resumed: the one that it replaced stands in its place again.
+  /// The run did not get as far as something that can be resumed: the one that it replaced stands in its place again, or the
+  /// place is free again.
   void put_back() noexcept;
 
  private:
@@ -39,12 +40,14 @@ class RunDirectory {
   std::optional<std::filesystem::path>
       beside_;  ///< where the new folder is until it is claimed, then the old one
   bool resumes_ = false, replaces_ = false, exchanged_ = false;
+  bool made_ = false, fresh_ = false;  ///< was there no such folder, no run in it
   std::optional<FolderLock> lock_,
       new_lock_;  ///< of the folder that stood at `path`, and of the one that replaces it
 
   std::filesystem::path sibling(const char* what) const;
   void prepare(Existing existing);
   void exchange();
+  void leave_no_trace() const noexcept;
 };
 
 }  // namespace chute::run

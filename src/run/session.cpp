@@ -109,10 +109,14 @@ void Session::begin() {
 }
 
 void Session::advance(std::int64_t until) {
+  move(until);
+  look();
+}
+
+void Session::move(std::int64_t until) {
   auto next = std::min(until, last_step_);
   for (const auto& observer : observers_) next = std::min(next, observer->next_after(engine_->step()));
   engine_->advance_to(next);
-  look();
 }
 
 void Session::write() const {

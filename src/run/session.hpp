@@ -31,6 +31,9 @@ class Session {
   void begin();
   /// Goes on to the next step at which somebody looks, but no farther than `until`, and lets them look.
   void advance(std::int64_t until);
+  /// The two halves of it: what fails in the first one is physics, in the second one files.
+  void move(std::int64_t until);
+  void look();
 
   const measure::SeriesObserver& series() const { return *series_; }
 
@@ -58,7 +61,6 @@ class Session {
   std::vector<Watch> watches_;
   measure::SeriesObserver* series_ = nullptr;
 
-  void look();
   /// Starts or goes on collecting what somebody wants now.
   void prepare();
 };

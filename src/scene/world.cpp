@@ -10,6 +10,7 @@
 #include "core/random.hpp"
 #include "core/sphere.hpp"
 #include "scene/forms.hpp"
+#include "scene/intervals.hpp"
 #include "scene/species.hpp"
 #include "starts/launch_keys.hpp"
 
@@ -188,9 +189,7 @@ engines::Setting setting_of(const Scene& scene) {
     const auto& size = scene.domain.size;
     s.size[k] = periods.length[k] > 0 ? periods.length[k] : size && k < size->size() ? (*size)[k] : 0;
   }
-  s.between_outputs = std::numeric_limits<double>::infinity();
-  for (const auto& output : scene.output)
-    if (output->wanted()) s.between_outputs = std::min(s.between_outputs, output->rhythm());
+  s.between_outputs = interval_of_all_outputs(scene);
   s.contact = scene.contact;
   s.materials = sizes.materials;
   s.mean_diameter = sizes.mean_diameter;

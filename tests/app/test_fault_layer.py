@@ -100,6 +100,7 @@ class FaultLayer(unittest.TestCase):
                 self.at = f"{how} at call {k} of {program} in {' '.join(command)}"
                 folder = self.folder("broken", old)
                 done = self.go(folder, command, (k, how), program, more)
+                self.said = done.stderr
                 if program == "chute" and how == "kill":
                     self.assertEqual(done.returncode, KILLED, (self.at, done.stderr))
                 elif done.returncode != 0:
@@ -121,6 +122,11 @@ class FaultLayer(unittest.TestCase):
         for folder, finished in self.faults(self.RUN):
             if finished:
                 self.assertEqual(tree(folder), whole, self.at)
+            elif not self.at.startswith("kill"):
+                self.assertEqual((folder / "out/checkpoint").exists(), "go on with: chute run out --resume" in self.said, (self.at, self.said))
+                if (folder / "out").exists():  # then it holds something to go on from, and a full disk is not physics
+                    self.assertIn(json.loads((folder / "out/run.json").read_text())["end"], ("running", "finished"), self.at)
+                    self.assertTrue((folder / "out/checkpoint").exists(), (self.at, self.said))
             for flag in "--resume", "--force":
                 again = self.good(self.folder("again", folder), *self.RUN, flag)
                 self.nothing_is_left(again)

@@ -123,6 +123,18 @@ class Figure(Pictures):
         self.write("mine.csv", "# my measurement\npanel,series,x,y,y_err\n" + rows)
         return self.write("mine.toml", 'title = "Mine & others"\n[data]\ntable = "mine.csv"\n[plot]\n' + plot)
 
+    def test_its_table_says_what_its_columns_mean(self):
+        self.write("profiles.csv", "h,eta,v_x,v_x_err\n0.5,0.8,1,0.1\n1.5,0.7,2,0.2\n")
+        recipe = self.write("flow.toml", 'title = "Flow"\n[data]\ntable = "profiles.csv"\n'
+                            'x = "h"\ny = "v_x"\ny_err = "v_x_err"\n[plot]\nx = { label = "h" }\ny = { label = "v" }\n')
+        self.call("figure", recipe, "-o", self.folder)
+        with open(self.path("flow.csv"), encoding="utf-8") as file:
+            comments = [line for line in file.read().splitlines() if line.startswith("#")]
+        for begin in ("# column h of profiles.csv (m; d): height above", "# column v_x of profiles.csv (m/s; sqrt(gd)): mean velocity",
+                      "# column v_x_err of profiles.csv (m/s; sqrt(gd)): of v_x: standard error", "# column series: name of the curve",
+                      "# column *_err: "):
+            self.assertEqual(sum(line.startswith(begin) for line in comments), 1, (begin, comments))
+
     def test_a_figure_of_ones_own(self):
         recipe = self.recipe('x = { label = "$\\\\bar{v}_x$ (m/s)" }', ",mu=0.5,1,2,0.1\n,mu=0.5,2,3,\n")
         self.call("figure", recipe, "-o", self.folder)

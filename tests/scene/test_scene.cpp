@@ -143,6 +143,25 @@ TEST_CASE("a height of profile bins that is not given is one bed diameter") {
   CHECK(s.wants<measure::ProfilesOutput>()->spec->bin == 0.25);
 }
 
+TEST_CASE("every interval of outputs is a whole number of steps where a step can be") {
+  const auto step_with = [](const char* series, const char* frames) {
+    const auto s =
+        parse(example, {fmt::format("output={{series={{every={}}},frames={{every={}}}}}", series, frames)});
+    return s.engine->step(setting_of(s));
+  };
+  const auto is_whole = [](double interval, double step) {
+    return std::abs(interval / step - std::round(interval / step)) < 1e-6;
+  };
+  for (const auto& [series, frames] :
+       {std::pair("0.2", "0.5"), {"0.5", "0.2"}, {"0.3", "0.5"}, {"0.07", "0.1"}})
+    for (const char* every : {series, frames}) CHECK(is_whole(std::stod(every), step_with(series, frames)));
+  // where one divides the other, the step is that of the shorter one alone, to the last bit
+  CHECK(step_with("0.1", "0.5") == step_with("0.1", "0.1"));
+  CHECK(step_with("0.3", "0.1") == step_with("0.1", "0.1"));
+  // of 1 and the square root of 2 there is no such step
+  CHECK(step_with("1", "1.4142135623") == step_with("1", "1"));
+}
+
 TEST_CASE("the time step resolves the contact of the smallest grains, not of the mean ones") {
   const auto s = parse(example, {"grains.diameter.std=0.2", "grains.start.spacing=1.7"});
   const auto setting = setting_of(s);
