@@ -32,7 +32,8 @@ bool send(int to, const char* data, std::size_t size) {
 
 [[noreturn]] void live_as_child(int to, pid_t parent, const std::function<std::string()>& work,
                                 std::size_t most_bytes) {
-  for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGABRT, SIGBUS}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGSEGV, SIGFPE, SIGABRT, SIGBUS})
+    std::signal(signal, SIG_DFL);
   // What nobody waits for any more would keep files and locks of its parent's open for as long as it reads.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
@@ -46,6 +47,13 @@ bool send(int to, const char* data, std::size_t size) {
     answer = std::string(1, it_threw) + error.what();
   }
   ::_exit(send(to, answer.data(), answer.size()) ? 0 : 1);
+}
+
+/// A terminal sends its signals to all processes of a command: such an end says nothing about what was read.
+bool was_told_to_stop(int status) {
+  if (!WIFSIGNALED(status)) return false;
+  const int signal = WTERMSIG(status);
+  return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
 }
 
 }  // namespace
@@ -93,6 +101,7 @@ std::string Child::result() {
     answer.append(buffer, static_cast<std::size_t>(got));
   }
   const int status = wait();
+  if (was_told_to_stop(status)) throw WorkError("stopped");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) throw InputError(when_it_dies_);
   if (answer[0] == it_threw) throw InputError(answer.substr(1));
   return answer.substr(1);

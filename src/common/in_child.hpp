@@ -20,7 +20,7 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   /// Waits for what the work returned. An exception in it comes back as InputError with its text, and so does its end by a
-  /// signal or by more than `most_bytes` of memory, as `when_it_dies`.
+  /// signal or by more than `most_bytes` of memory, as `when_it_dies`. WorkError if it was told to stop.
   std::string result();
 
  private:

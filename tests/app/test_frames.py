@@ -1,6 +1,7 @@
 """Frames as files of other programs, and measured as a run measures its own: test_frames.py CHUTE."""
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -252,6 +253,25 @@ class Frames(unittest.TestCase):
             self.call(*whole[:-1], again)
             self.assertEqual(sorted(os.listdir(self.path(out))), sorted(os.listdir(self.path(again))))
             self.assertIn("is not empty", self.call(*whole, status=2).stderr)  # a whole one is nobody's to take
+
+    def test_asked_to_stop_it_does_not_blame_a_file(self):
+        """A terminal's Ctrl-C reaches the processes that read, too; one of these waits at a pipe that nobody writes into."""
+        os.mkfifo(self.path("1.xyz"))
+        with open(self.path("0.xyz"), "w", encoding="utf-8") as file:
+            file.write("1\nProperties=species:S:1:pos:R:3:radius:R:1\nA 0 0 0 .5\n")
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            out = self.new()
+            converts = subprocess.Popen([chute, "convert", "0.xyz", "1.xyz", "--to", "csv", "--jobs", "2", "-o", out], cwd=self.folder,
+                                        stderr=subprocess.PIPE, text=True, start_new_session=True)
+            for _ in range(1000):
+                if os.path.isdir(self.path(out)) and "000000.csv" in os.listdir(self.path(out)):
+                    break
+                time.sleep(0.01)
+            time.sleep(0.2)
+            os.killpg(converts.pid, how)
+            said = converts.communicate(timeout=20)[1]
+            self.assertEqual((converts.returncode, said), (1, "chute: stopped\n"))
+            self.assertFalse(os.path.exists(self.path(out)))
 
     def test_numbers_beyond_all_bounds_are_refused(self):
         frame = "2\nProperties=species:S:1:pos:R:3:radius:R:1\nA 0 0 0 .5\nA %s 3 3 .5\n"
