@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
+#include "engines/kind/deep_start.hpp"
 
 namespace chute::hybrid {
 namespace {
@@ -57,6 +58,7 @@ HybridEngine<D>::HybridEngine(Grains<D> grains, const HybridSetup<D>& setup)
     for (std::size_t k = 0; k < D; ++k) f.wraps[k] = grains_.wraps[k][i];
     hard::Flight<D>::wrap(f.place, f.wraps, setup_.domain);
   }
+  engines::refuse_deep_start<D>(grains_, setup_, engines::deepest_that_is_pushed_apart);
   for (auto& f : force_) f.assign(grains_.size(), 0);
   show();
   start_place_ = unwrapped_places<D>(this->grains());
