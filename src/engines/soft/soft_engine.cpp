@@ -203,22 +203,10 @@ search::Candidates<D> SoftEngine<D>::candidates() {
 /// Forces on the moving grains must be 0 before.
 template <int D>
 void SoftEngine<D>::forces(double duration) {
-  forget_forces_on_fixed();
+  sums_.clear_fixed(contacts_, grains_.moving);
   stages_.evaluate(candidates(), grains_, contacts_, duration, *team_);
   stages_.apply(contacts_, grains_, duration, sums_, *team_);
   walls_.evaluate(grains_, time(), duration, stages_.deepest(), sums_);
-}
-
-/// Only the last contacts have put something on fixed grains. A ball on a plane of thousands touches a few of them: clearing
-/// them all took half of its time.
-template <int D>
-void SoftEngine<D>::forget_forces_on_fixed() {
-  if (contacts_.count >= grains_.size() - grains_.moving) {
-    sums_.clear({grains_.moving, grains_.size()});
-    return;
-  }
-  for (std::size_t c = 0; c < contacts_.count; ++c)
-    if (const auto j = static_cast<std::size_t>(contacts_.j[c]); j >= grains_.moving) sums_.clear({j, j + 1});
 }
 
 /// Collecting impacts remembers grains by their ids from step to step.

@@ -83,7 +83,6 @@ class SoftEngine final : public Engine {
 
   search::Candidates<D> candidates();
   void forces(double duration);
-  void forget_forces_on_fixed();
   bool sorts() const;
   bool advance_in_tiles(std::int64_t step);
   void sort();
