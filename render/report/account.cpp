@@ -11,11 +11,13 @@ struct Line {
 };
 constexpr Line in_lines[] = {{"gravity_work", "work of gravity"},
                              {"wall_work", "work of moving walls"},
-                             {"projection_work", "moving pressed grains apart"}};
+                             {"projection_work", "moving pressed grains apart"},
+                             {"energy_in", "grains that came in"}};
 constexpr Line kept_lines[] = {
     {"translation", "translation"}, {"rotation", "rotation"}, {"elastic", "elastic energy"}};
 constexpr Line lost_lines[] = {{"normal_loss", "normal dissipation"},
-                               {"shear_loss", "tangential dissipation"}};
+                               {"shear_loss", "tangential dissipation"},
+                               {"energy_out", "grains that left"}};
 
 }  // namespace
 

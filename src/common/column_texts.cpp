@@ -17,7 +17,7 @@ constexpr Unit none{"", ""}, length{"m", "d"}, time{"s", "sqrt(d/g)"}, speed{"m/
     mass{"kg", "m"},
     // In the plane stresses are forces per length and densities masses per area.
     stress{"Pa (2D: N/m)", "mg/d² (2D: mg/d)"}, density{"kg/m³ (2D: kg/m²)", "m/d³ (2D: m/d²)"},
-    impulse{"N s", "m sqrt(gd)"}, rate{"1/m", "1/d"}, per_speed{"s/m", "1/sqrt(gd)"};
+    impulse{"N s", "m sqrt(gd)"}, momentum{"kg m/s", "m sqrt(gd)"}, rate{"1/m", "1/d"}, per_speed{"s/m", "1/sqrt(gd)"};
 
 ColumnText column(const char* name, Unit unit, const char* meaning) {
   return {name, meaning, unit.si, unit.reduced};
@@ -90,10 +90,20 @@ std::vector<TableText> all_tables() {
         column("wall_work", energy, "what moving walls put in since the start"),
         column("projection_work", energy,
                "potential energy put in by moving pressed hard grains out of each other"),
+        column("energy_in", energy, "[inflow], [outflow]: energy that grains brought which came in"),
+        column("energy_out", energy, "energy that grains took away which left, that of their contacts among it"),
         column(
             "residual", energy,
             "what the account does not explain: works − change of the stored energies − losses; < 0: energy came from nowhere"),
         column("angle", degree, "of an incline that is tilted"),
+        column("grains", none, "[inflow], [outflow]: moving grains now, those of the start + entered − left"),
+        column("entered", none, "grains that came in since the start"),
+        column("left", none, "grains that left since the start"),
+        column("waiting", none, "grains that should have come in by now and found no room"),
+        column("mass_in", mass, "of all that came in"),
+        column("mass_out", mass, "of all that left"),
+        column("momentum_in_*", momentum, "of all that came in, when they did"),
+        column("momentum_out_*", momentum, "of all that left, when they did"),
         column("sliding_share", none, "contact dynamics: share of the pressed contacts that slide"),
         column("iterations", none, "of the solver in the last step"),
         column("residual_of_solver", none, "in the last step, in the unit of engine.tolerance"),

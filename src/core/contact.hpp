@@ -17,7 +17,8 @@ enum class ContactState : int { unknown = 0, stick = 1, slide = 2 };
 /// A contact as every engine tells of it and everybody reads it: stresses, networks, files, figures. Vectors have the
 /// components of files; in 2D the third is 0.
 struct Contact {
-  std::int64_t a = 0, b = 0;       ///< ids, a < b, and a a moving grain; b may be a wall (see wall_id)
+  /// Places among the engine's grains, a < b, and a a moving grain; b may be a wall (see wall_id). Files have ids.
+  std::int64_t a = 0, b = 0;
   std::array<double, 3> point{};   ///< where the surfaces touch, halfway through the overlap
   std::array<double, 3> normal{};  ///< n, from a to b (1.10)
   std::array<double, 3> branch{};  ///< from a's centre to b's, by the nearest image; to the wall's surface

@@ -29,11 +29,14 @@ struct EnergyAccount {
   double shear_loss = 0;       ///< taken by tangential contact forces
   double wall_work = 0;        ///< done on the grains by walls that move
   double projection_work = 0;  ///< potential energy that moving rigid grains out of each other put in
+  double inflow = 0;           ///< that grains brought which came in
+  double outflow = 0;          ///< that grains took away which left
   double start = 0;            ///< translation + rotation + elastic at the start
 
   double stored() const { return translation + rotation + elastic; }
   double residual() const {
-    return gravity_work + wall_work + projection_work - (stored() - start) - normal_loss - shear_loss;
+    return gravity_work + wall_work + projection_work + inflow - outflow - (stored() - start) - normal_loss -
+           shear_loss;
   }
 
   /// Adds what places and velocities tell: the energies of motion, and gravity's work since the moving grains
@@ -55,7 +58,7 @@ struct EnergyAccount {
   template <class Archive>
   void serialize(Archive& a) {
     a(translation, rotation, elastic, gravity_work, normal_loss, shear_loss, wall_work, projection_work,
-      start);
+      inflow, outflow, start);
   }
 };
 

@@ -37,6 +37,18 @@ void reorder(Values& values, std::span<const std::int32_t> from) {
   for (std::size_t k = 0; k < from.size(); ++k) values[k] = old[static_cast<std::size_t>(from[k])];
 }
 
+/// Of `moving` elements those at `stay` are left, in this order, and `more` new ones (zeros) follow; whatever comes after the
+/// moving ones stays behind them.
+template <class Values>
+void renew(Values& values, std::span<const std::int32_t> stay, std::size_t moving, std::size_t more) {
+  Values next;
+  next.reserve(values.size() - moving + stay.size() + more);
+  for (const auto k : stay) next.push_back(values[static_cast<std::size_t>(k)]);
+  next.resize(stay.size() + more);
+  next.insert(next.end(), values.begin() + static_cast<std::ptrdiff_t>(moving), values.end());
+  values = std::move(next);
+}
+
 /// What the numbers of a field mean, which decides how files hold them.
 enum class FieldKind {
   scalar,
@@ -54,7 +66,7 @@ struct GrainField {
 };
 
 /// The state of all grains, one array per field. Moving grains come first, [0, moving); fixed ones (the bed)
-/// follow. A grain's index is its id in every file. 2D spins count anticlockwise (x downhill, y up from the
+/// follow. A grain's index is its id in every file, unless grains come and go meanwhile (GrainsView::id). 2D spins count anticlockwise (x downhill, y up from the
 /// bed), so a grain that rolls downhill spins negatively.
 template <int D>
 struct Grains {
@@ -132,6 +144,12 @@ struct Grains {
     for_columns(*this, [&](const GrainField&, auto& column) { chute::reorder(column, from); });
   }
 
+  /// Moving grains leave and come in: see chute::renew. New ones have nothing but zeros yet.
+  void renew(std::span<const std::int32_t> stay, std::size_t more) {
+    for_columns(*this, [&](const GrainField&, auto& column) { chute::renew(column, stay, moving, more); });
+    moving = stay.size() + more;
+  }
+
   /// What changes in a run, for checkpoints.
   template <class Archive>
   void serialize(Archive& archive) {
@@ -168,12 +186,14 @@ struct GrainsView {
   std::span<const double> radius, mass, inertia;
   std::span<const int> material;
   std::array<std::span<const int>, 3>
-      wraps;                       ///< of the moving grains; with `period`, the way around the domain
-  std::array<double, 3> period{};  ///< 0 where the domain is not periodic
-  std::vector<FieldView> fields;   ///< those that files hold, but for `force`
+      wraps;                         ///< of the moving grains; with `period`, the way around the domain
+  std::array<double, 3> period{};    ///< 0 where the domain is not periodic
+  std::vector<FieldView> fields;     ///< those that files hold, but for `force`
+  std::span<const std::int64_t> id;  ///< what files call them; empty: as they are numbered here
 
   std::size_t size() const { return radius.size(); }
 
+  std::int64_t id_of(std::size_t i) const { return id.empty() ? static_cast<std::int64_t>(i) : id[i]; }
   /// Place of a moving grain in direction k, counted on through the periods.
   double unwrapped(std::size_t i, std::size_t k) const {
     return position[k][i] + static_cast<double>(wraps[k][i]) * period[k];

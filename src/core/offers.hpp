@@ -22,6 +22,7 @@ struct Offers {
   bool static_friction = false;    ///< a friction at rest that is not that of sliding
   bool materials = false;          ///< species with contact laws by pair
   bool tilting = false;            ///< an incline that is tilted meanwhile
+  bool open = false;               ///< grains that come in and leave meanwhile
   bool avalanches = false;         ///< what follows when a grain is added
   bool threads = false;
   std::string_view clock = "time";  ///< what a step counts

@@ -17,7 +17,8 @@ enum class Purpose : std::uint8_t {
   start = 3,
   stochastic = 4,
   bootstrap = 5,
-  engine = 6
+  engine = 6,
+  inflow = 7
 };
 
 /// Random numbers that are a function of where they are used, not of what was drawn before: Philox4x32-10 (Salmon et

@@ -7,6 +7,7 @@
 #include "core/domain.hpp"
 #include "core/frame.hpp"
 #include "core/grains.hpp"
+#include "core/inflow.hpp"
 #include "core/wall.hpp"
 
 namespace chute {
@@ -20,7 +21,11 @@ struct Surroundings {
   std::vector<Wall<D>> walls;
   double floor = -std::numeric_limits<double>::infinity();  ///< a grain below (last coordinate) is lost
   Frame frame;
+  std::optional<Inflow<D>> inflow{};  ///< grains that come in meanwhile
+  std::optional<Outflow> outflow{};   ///< and that leave
 
+  /// Is the number of its moving grains another from time to time?
+  bool open() const { return inflow || outflow; }
   Vec<D> gravity_at(double t) const {
     return tilt ? gravity_on_incline<D>(tilt->gravity, tilt->angle(t)) : gravity;
   }

@@ -47,6 +47,7 @@ std::uint64_t PlainGrains::Column::bytes() const {
     case Type::moves:
       return rows * sizeof(std::int32_t);
     case Type::rows:
+    case Type::ids:
       return rows * sizeof(std::int64_t);
     case Type::text:
       break;
@@ -68,6 +69,8 @@ void PlainGrains::Column::write(std::ostream& out) const {
       return write_values<std::int32_t>(out, rows, [&](std::uint64_t row) { return row < first; });
     case Type::rows:
       return write_values<std::int64_t>(out, rows, [&](std::uint64_t row) { return first + row; });
+    case Type::ids:
+      return write_values<std::int64_t>(out, rows, [&](std::uint64_t row) { return ids[row]; });
     case Type::text:
       out.write(text.c_str(), static_cast<std::streamsize>(text.size() + 1));
   }
@@ -81,6 +84,7 @@ std::string PlainGrains::range_of(const Column& column) {
     if (column.type == Column::Type::words) value = column.words[row];
     if (column.type == Column::Type::moves) value = row < column.first;
     if (column.type == Column::Type::rows) value = static_cast<double>(column.first + row);
+    if (column.type == Column::Type::ids) value = static_cast<double>(column.ids[row]);
     if (column.type == Column::Type::numbers && column.components == 1) value = column.number(row, 0);
     if (column.components > 1) {
       for (int k = 0; k < column.components; ++k) value += column.number(row, k) * column.number(row, k);
@@ -95,10 +99,10 @@ std::string PlainGrains::range_of(const Column& column) {
 void PlainGrains::add(Column column, const char* indent, bool counted, bool ranged) {
   using Type = Column::Type;
   const bool text = column.type == Type::text;
-  const char* type = column.type == Type::numbers ? "Float64"
-                     : column.type == Type::rows  ? "Int64"
-                     : text                       ? "String"
-                                                  : "Int32";
+  const char* type = column.type == Type::numbers                            ? "Float64"
+                     : column.type == Type::rows || column.type == Type::ids ? "Int64"
+                     : text                                                  ? "String"
+                                                                             : "Int32";
   head_ +=
       fmt::format("{}<{} type=\"{}\" Name=\"{}\"", indent, text ? "Array" : "DataArray", type, column.name);
   if (column.components > 1) head_ += fmt::format(" NumberOfComponents=\"{}\"", column.components);
@@ -138,7 +142,11 @@ PlainGrains::PlainGrains(const GrainsView& grains, const RunFacts& facts) {
     head_ += fmt::format(" NumberOf{}={}", name, padded(fmt::format("{}", count)));
   head_ += ">\n      <PointData>\n";
   constexpr const char* within = "        ";
-  add({.type = Type::rows, .name = std::string(fields::id.name), .rows = n}, within, false, true);
+  add({.type = grains.id.empty() ? Type::rows : Type::ids,
+       .name = std::string(fields::id.name),
+       .rows = n,
+       .ids = grains.id},
+      within, false, true);
   add({.type = Type::moves, .name = std::string(fields::type.name), .rows = n, .first = grains.moving},
       within, false, true);
   for (const auto& field : grains.fields) {

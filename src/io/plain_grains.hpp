@@ -22,12 +22,13 @@ class PlainGrains {
  private:
   /// An array of the file: numbers, counts that follow from the row, or a text.
   struct Column {
-    enum class Type { numbers, words, rows, moves, text } type = Type::numbers;
+    enum class Type { numbers, words, rows, ids, moves, text } type = Type::numbers;
     std::string name{};
     std::uint64_t rows = 0;
     int components = 1, shift = 0;  ///< the first `shift` components are 0, as those beyond the spans
     std::vector<std::span<const double>> numbers{};
     std::span<const int> words{};
+    std::span<const std::int64_t> ids{};
     std::uint64_t first = 0;  ///< rows: counted from here; moves: 1 below here, 0 from here on
     std::string text{};
 

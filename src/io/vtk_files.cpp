@@ -63,7 +63,7 @@ std::string grains_vtp(const GrainsView& grains, const RunFacts& facts, Packing 
   const std::size_t n = grains.size();
   add_vertices(data, n, [&](std::size_t i) { return grains.place(i); });
   auto* to = data->GetPointData();
-  add_array<vtkLongLongArray>(to, fields::id.name, n, 1, [](std::size_t i, int) { return i; });
+  add_array<vtkLongLongArray>(to, fields::id.name, n, 1, [&](std::size_t i, int) { return grains.id_of(i); });
   add_array<vtkIntArray>(to, fields::type.name, n, 1,
                          [&](std::size_t i, int) { return i < grains.moving ? 1 : 0; });
   for (const auto& field : grains.fields) add_field(to, field, n);
@@ -128,10 +128,13 @@ std::string contacts_vtp(const GrainsView& grains, std::span<const Contact> cont
       return (contacts[i].*member)[static_cast<std::size_t>(k)];
     });
   };
+  const auto id_of = [&](std::int64_t k) {
+    return is_wall(k) ? k : grains.id_of(static_cast<std::size_t>(k));
+  };
   add_array<vtkLongLongArray>(to, fields::contact_a.name, n, 1,
-                              [&](std::size_t i, int) { return contacts[i].a; });
+                              [&](std::size_t i, int) { return id_of(contacts[i].a); });
   add_array<vtkLongLongArray>(to, fields::contact_b.name, n, 1,
-                              [&](std::size_t i, int) { return contacts[i].b; });
+                              [&](std::size_t i, int) { return id_of(contacts[i].b); });
   vector(fields::point, &Contact::point);
   vector(fields::normal, &Contact::normal);
   vector(fields::branch, &Contact::branch);

@@ -7,7 +7,7 @@ namespace chute::measure {
 
 std::optional<AccountVerdict> judge_account(const EnergyAccount& e) {
   constexpr double good = 1e-3, fair = 1e-2;
-  const double turned_over = std::max({std::abs(e.gravity_work), std::abs(e.wall_work),
+  const double turned_over = std::max({std::abs(e.gravity_work), std::abs(e.wall_work), e.inflow, e.outflow,
                                        std::abs(e.projection_work), e.normal_loss + e.shear_loss, e.start});
   if (!(turned_over > 0) || !std::isfinite(e.residual())) return {};
   AccountVerdict verdict{e.residual(), e.residual() / turned_over, ""};

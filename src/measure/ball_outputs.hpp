@@ -22,6 +22,7 @@ class VelocitiesOutput final : public TableOutput<VelocitiesOutput, VelocitySpec
  public:
   static constexpr std::string_view word = "velocities",
                                     text = "velocities of single grains, and their distributions";
+  Needs needs() const override { return {.same_grains = true}; }
   void fill(const Scales& scales) override;
   double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
   std::vector<std::string> files() const override { return {"velocities.csv", "velocity_histograms.csv"}; }
@@ -43,6 +44,7 @@ class DiffusionOutput final : public TableOutput<DiffusionOutput, DiffusionSpec>
  public:
   static constexpr std::string_view word = "diffusion",
                                     text = "how grains spread along and across, (4.65) and (4.66)";
+  Needs needs() const override { return {.same_grains = true}; }
   double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
   std::vector<std::string> files() const override { return {"diffusion.csv", diffusion_coefficients_file}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
@@ -82,6 +84,7 @@ class TrappingOutput final : public TableOutput<TrappingOutput, TrappingSpec> {
   static constexpr std::string_view
       word = "trapping",
       text = "which grains came to rest, where, how far they had gone, and how often";
+  Needs needs() const override { return {.same_grains = true}; }
   std::vector<std::string> files() const override { return {"trapping.csv", "trapping_rate.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
@@ -98,6 +101,7 @@ class StartingOutput final : public TableOutput<StartingOutput, StartingSpec> {
  public:
   static constexpr std::string_view word = "starting",
                                     text = "when grains at rest begin to move, on an incline that tilts";
+  Needs needs() const override { return {.same_grains = true}; }
   std::vector<std::string> files() const override { return {"starting.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };

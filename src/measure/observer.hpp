@@ -39,6 +39,7 @@ struct RunContext {
   std::optional<Tilt> tilt{};            ///< of an incline that is tilted meanwhile
   std::vector<std::string> materials{};  ///< their names, by number
   bool independent = false;              ///< grains do not feel each other: each is a run of its own
+  bool open = false;                     ///< grains come in and leave
   double time_step = 0, duration = 0;
   double contact_time = 0;                ///< t_n of the contact that the scene is about
   std::shared_ptr<io::RunFiles> files{};  ///< where they are written; without them nothing is
@@ -102,6 +103,7 @@ struct Needs {
   bool plane_of_beads = false;  ///< a bed of beads in 3D that repeats along and across
   bool closed_box = false;      ///< a domain that repeats in all directions
   bool space = false;           ///< three dimensions
+  bool same_grains = false;     ///< that are there from the beginning to the end: it keeps something of each
 };
 
 /// What is long, fast and slow in a scene: defaults of outputs follow from it.

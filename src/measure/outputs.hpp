@@ -111,6 +111,7 @@ void describe(Archive& a, HeightSpec& spec) {
 class HeightsOutput final : public TableOutput<HeightsOutput, HeightSpec> {
  public:
   static constexpr std::string_view word = "heights", text = "the mean height of every single grain";
+  Needs needs() const override { return {.same_grains = true}; }
   std::vector<std::string> files() const override { return {"heights.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };

@@ -1,5 +1,6 @@
 #include "measure/series.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -19,7 +20,7 @@ SeriesRow observe_series(const Engine& engine, const Frame& frame) {
       row.v[k] += grains.velocity[k][i];
     row.omega += frame.rolling_sign() * spin[i];
   }
-  const auto n = static_cast<double>(grains.moving);
+  const auto n = static_cast<double>(std::max<std::size_t>(1, grains.moving));  // of none all means are 0
   row.x /= n;
   for (double& v : row.v) v /= n;
   row.omega /= n;
@@ -35,6 +36,12 @@ SeriesObserver::SeriesObserver(const RunContext& run, const Every& every)
 void SeriesObserver::look(const Look& look) {
   if (due_.index_at(look.engine.step()) < 0) return;
   rows_.push_back(observe_series(look.engine, run_.frame));
+  if (run_.open && rows_.size() > 1) {
+    // Where grains come and go their mean place stays while they flow: the way is that of the mean velocity.
+    auto& now = rows_.back();
+    const auto& before = rows_[rows_.size() - 2];
+    now.x = before.x + (now.time - before.time) * (before.v[0] + now.v[0]) / 2;
+  }
   if (rows_.size() == 1)
     for (const auto& [name, value] : look.engine.tells()) told_.push_back(name);
   const GrainsView grains = look.engine.grains();
@@ -66,7 +73,7 @@ std::vector<Flow> SeriesObserver::starts() const {
   for (const auto& row : rows_) {
     mean.x.push_back(row.x);
     mean.omega.push_back(row.omega);
-    mean.kinetic.push_back((row.energy.translation + row.energy.rotation) / mass_);
+    mean.kinetic.push_back(mass_ > 0 ? (row.energy.translation + row.energy.rotation) / mass_ : 0);
   }
   return {judge_flow({time, mean.x, mean.omega, mean.kinetic}, scales)};
 }
@@ -104,8 +111,11 @@ void SeriesObserver::write(const Flow&) const {
       .add("normal_loss", energy(&EnergyAccount::normal_loss))
       .add("shear_loss", energy(&EnergyAccount::shear_loss))
       .add("wall_work", energy(&EnergyAccount::wall_work))
-      .add("projection_work", energy(&EnergyAccount::projection_work))
-      .add("residual", [](const Row& row) { return row.energy.residual(); });
+      .add("projection_work", energy(&EnergyAccount::projection_work));
+  if (run_.open)
+    columns.add("energy_in", energy(&EnergyAccount::inflow))
+        .add("energy_out", energy(&EnergyAccount::outflow));
+  columns.add("residual", [](const Row& row) { return row.energy.residual(); });
   if (run_.tilt)
     columns.add("angle",
                 [this](const Row& row) { return run_.tilt->angle(row.time) * 180 / std::numbers::pi; });

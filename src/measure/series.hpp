@@ -20,7 +20,8 @@ struct SeriesRow {
   template <class Archive>
   void serialize(Archive& a) {
     a(time, x, v, omega, contacts, energy.translation, energy.rotation, energy.elastic, energy.gravity_work,
-      energy.normal_loss, energy.shear_loss, energy.wall_work, energy.projection_work, energy.start, tells);
+      energy.normal_loss, energy.shear_loss, energy.wall_work, energy.projection_work, energy.inflow,
+      energy.outflow, energy.start, tells);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/toml_reader.hpp"
+#include "scene/open_ends.hpp"
 #include "scene/world.hpp"
 
 namespace chute::run {
@@ -26,6 +27,8 @@ std::vector<Fact> facts(const scene::Scene& scene) {
   }
   const auto of_bed = scene.bed->facts({scene.dimensions, static_cast<std::uint64_t>(scene.seed)});
   list.insert(list.end(), of_bed.begin(), of_bed.end());
+  const auto of_ends = scene::facts_of_open_ends(scene);
+  list.insert(list.end(), of_ends.begin(), of_ends.end());
   list.push_back({"steps", std::ceil(scene.duration / scene.engine->step(setting)), "", "steps of the run"});
   if (const double cost = cost_of(scene); cost > 0)
     list.push_back({"cost", cost, "s", "rough time on one core"});
@@ -109,6 +112,7 @@ std::vector<std::string> outputs_between_steps(const scene::Scene& scene) {
 
 std::vector<std::string> warnings(const scene::Scene& scene) {
   auto told = scene.engine->warnings(scene::setting_of(scene));
+  for (auto& warning : scene::warnings_of_open_ends(scene)) told.push_back(std::move(warning));
   for (auto& warning : outputs_beyond_the_end(scene)) told.push_back(std::move(warning));
   for (auto& warning : outputs_between_steps(scene)) told.push_back(std::move(warning));
   return told;

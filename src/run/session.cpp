@@ -43,6 +43,7 @@ std::unique_ptr<Engine> made(const scene::Scene& scene, int threads, measure::Ru
   auto world = scene::make_world<D>(scene);
   run.frame = world.frame;
   run.tilt = world.tilt;
+  run.open = world.open();
   run.facts = io::facts_of(world, units_of(scene));
   for (const auto& material : scene.materials) run.materials.push_back(material.name);
   run.facts.materials = run.materials;

@@ -210,6 +210,8 @@ static void describe(Archive& a, Scene& scene) {
   a.required_section("bed", bed);
   a.sections("material", scene.materials);
   a.sections("wall", scene.walls);
+  a.section("inflow", scene.inflow);
+  a.section("outflow", scene.outflow);
   if (!scene.engine->brings_grains()) {
     if constexpr (Archive::reading) scene.grains.sizes_of_materials = all_have_diameters(scene.materials);
     a.required_section("grains", scene.grains);
@@ -225,6 +227,9 @@ static void describe(Archive& a, Scene& scene) {
     });
     a.check(scene.grains.density > 0 || dense, "grains", "density is missing; SI scenes need it (kg/m³)");
     const auto scales = scales_of(scene);
+    const double usually = 0.1 * scales.length / scales.velocity;  // 0.1 √(d/g)
+    if (scene.inflow && !scene.inflow->every) scene.inflow->every = usually;
+    if (scene.outflow && !scene.outflow->every) scene.outflow->every = usually;
     for (auto& kind : scene.output) kind->before_reading(scales);
     scene.checkpoint = scene.duration / 10;
     a.section("output", outputs);

@@ -13,6 +13,7 @@
 #include "measure/observer.hpp"
 #include "scene/diameter.hpp"
 #include "scene/material_spec.hpp"
+#include "scene/open_ends_spec.hpp"
 #include "scene/shape_spec.hpp"
 #include "scene/wall_spec.hpp"
 #include "starts/start.hpp"
@@ -75,6 +76,8 @@ struct Scene {
   std::optional<std::string> bed_material;  ///< its name; else the first
   std::vector<MaterialSpec> materials;      ///< [[material]]
   std::vector<WallSpec> walls;              ///< [[wall]]
+  std::optional<InflowSpec> inflow;         ///< [inflow]
+  std::optional<OutflowSpec> outflow;       ///< [outflow]
   GrainsSpec grains;
   laws::ContactSpec contact;
   Chosen<engines::Method> engine;
@@ -86,6 +89,8 @@ struct Scene {
 
   Scene();
   bool si() const { return units == Units::si; }
+  /// Do grains come in or leave meanwhile?
+  bool open() const { return inflow || outflow; }
   /// The output of that type.
   template <class Output>
   Output* wants() {

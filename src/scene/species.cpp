@@ -52,15 +52,16 @@ std::vector<int> materials_of(const Scene& scene) {
 std::vector<double> radii_of(const Scene& scene) {
   const auto materials = materials_of(scene);
   std::vector<double> radii;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    const auto& own = scene.materials.empty()
-                          ? scene.grains.diameter
-                          : scene.materials[static_cast<std::size_t>(materials[i])].diameter;
-    const auto& spread = own ? own : scene.grains.diameter;
-    Random random(seed_of(scene), Purpose::sizes, i);
-    radii.push_back((spread ? spread->draw(random) : mean_diameter(scene, {})) / 2);
-  }
+  for (std::size_t i = 0; i < materials.size(); ++i) radii.push_back(radius_of(scene, materials[i], i));
   return radii;
+}
+
+double radius_of(const Scene& scene, int material, std::uint64_t item) {
+  const auto& own = scene.materials.empty() ? scene.grains.diameter
+                                            : scene.materials[static_cast<std::size_t>(material)].diameter;
+  const auto& spread = own ? own : scene.grains.diameter;
+  Random random(seed_of(scene), Purpose::sizes, item);
+  return (spread ? spread->draw(random) : mean_diameter(scene, {})) / 2;
 }
 
 std::optional<Refusal> refusal_of_materials(const Scene& scene) {

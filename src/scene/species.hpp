@@ -19,6 +19,8 @@ std::optional<MeanGrain> mean_grain(const Scene& scene);
 /// Materials and radii of the grains that the scene describes, in the order of their ids.
 std::vector<int> materials_of(const Scene& scene);
 std::vector<double> radii_of(const Scene& scene);
+/// The radius of one grain of a material, drawn for that item.
+double radius_of(const Scene& scene, int material, std::uint64_t item);
 
 /// What of its materials cannot be; all above wants it to be nothing.
 std::optional<Refusal> refusal_of_materials(const Scene& scene);

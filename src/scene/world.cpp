@@ -11,6 +11,7 @@
 #include "core/sphere.hpp"
 #include "scene/forms.hpp"
 #include "scene/intervals.hpp"
+#include "scene/open_ends.hpp"
 #include "scene/species.hpp"
 #include "starts/launch_keys.hpp"
 
@@ -164,11 +165,14 @@ Sizes sizes_of(const Scene& scene) {
     for (std::size_t i = 0; i < radii.size(); ++i)
       masses.push_back(sphere_mass(density_of(scene, materials[i]), radii[i]));
   }
+  sizes.count = static_cast<std::int64_t>(radii.size());
+  for (const auto& grain : some_newcomers(scene)) {
+    radii.push_back(grain.radius), masses.push_back(grain.mass), materials.push_back(grain.material);
+  }
   sizes.materials = species_of(scene, materials, radii, masses);
   const auto [low, high] = std::minmax_element(radii.begin(), radii.end());
   sizes.smallest = *low, sizes.largest = *high;
   sizes.lightest = *std::min_element(masses.begin(), masses.end());
-  sizes.count = static_cast<std::int64_t>(radii.size());
   return sizes;
 }
 
@@ -213,7 +217,13 @@ engines::Setting setting_of(const Scene& scene) {
     s.fastest = std::hypot(start->velocity, start->velocity_up) + farthest * start->spread;
   }
 
-  const bool many = sizes.count > 1 && !s.independent, beads = !ground.beads.empty();
+  if (scene.inflow) {
+    double square = 0;
+    for (const double v : scene.inflow->velocity.value_or(std::vector<double>{})) square += v * v;
+    s.fastest = std::max(s.fastest, std::sqrt(square) + 3.5 * scene.inflow->spread);
+    s.grains = std::max(s.grains, static_cast<std::int64_t>(grains_on_the_way(scene)));
+  }
+  const bool many = (sizes.count > 1 || scene.inflow) && !s.independent, beads = !ground.beads.empty();
   const double r = s.bead_diameter / 2;
   const auto with_bed = [&](double R, double mass) {
     return ground.smooth ? laws::Pair(mass, R) : laws::Pair(mass, R * r / (R + r));
@@ -255,6 +265,14 @@ engines::Setting setting_of(const Scene& scene) {
 }
 
 namespace {
+
+/// Of the grains that come in.
+double widest_of(const Scene& scene) {
+  if (!scene.inflow || scene.grains.start->brings_grains()) return 0;
+  double widest = 0;
+  for (const auto& grain : some_newcomers(scene)) widest = std::max(widest, 2 * grain.radius);
+  return widest;
+}
 
 /// What of [[wall]] cannot be.
 std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers, const Periods& periods,
@@ -377,6 +395,7 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
     return r;
   if (auto r = lacks(offers.walls, "knows no walls", "bed.kind", ground.smooth)) return r;
   if (auto r = refusal_of_walls(scene, offers, periods, ground, setting.mean_diameter)) return r;
+  if (auto r = refusal_of_open_ends(scene, offers, {periods.length, widest_of(scene)})) return r;
   for (const auto& output : scene.output) {
     if (!output->wanted()) continue;
     const auto needs = output->needs();
@@ -463,6 +482,7 @@ World<D> make_world(const Scene& scene) {
     world.walls.push_back(make_wall<D>(wall));
     world.walls.back().surface.material = material_of(scene, wall.material);
   }
+  open_ends(scene, world);
   // Over the sides of a bed that ends there grains may fall as far as they like.
   const bool endless = std::all_of(periods.length.begin(), periods.length.begin() + (D - 1),
                                    [](double length) { return length > 0; });

@@ -46,6 +46,8 @@ class NeighbourList {
   void renew(const Grains<D>& grains, Team& team);
   /// The grains have another order now; nothing that was known of them holds.
   void forget() { known_ = false; }
+  /// There are other grains now, maybe more or fewer.
+  void start_over() { known_ = false, coarse_ = {}, astray_ = false; }
 
   std::int64_t near_builds() const { return near_builds_; }
   std::int64_t far_builds() const { return far_builds_; }

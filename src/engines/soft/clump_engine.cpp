@@ -120,17 +120,29 @@ search::Candidates<D> ClumpEngine<D>::candidates() {
 template <int D>
 void ClumpEngine<D>::forces(double duration) {
   lay_spheres();
+  const std::size_t moving = first_.back();
+  sphere_sums_.clear({0, moving});
+  sphere_sums_.clear_fixed(contacts_, moving);
+  for_touched_beads([&](std::size_t, std::size_t body) { body_sums_.clear({body, body + 1}); });
   stages_.evaluate(candidates(), spheres_, contacts_, duration, *team_);
-  sphere_sums_.clear({0, spheres_.size()});
   stages_.apply(contacts_, spheres_, duration, sphere_sums_, *team_);
   walls_.evaluate(spheres_, time(), duration, stages_.deepest(), sphere_sums_);
   add_up();
 }
 
+/// visit(sphere, body) for each bead of the bed that a contact touches, once a contact.
+template <int D>
+template <class Visit>
+void ClumpEngine<D>::for_touched_beads(const Visit& visit) const {
+  const std::size_t moving = first_.back();
+  for (std::size_t c = 0; c < contacts_.count; ++c)
+    if (const auto j = static_cast<std::size_t>(contacts_.j[c]); j >= moving)
+      visit(j, bodies_.moving + (j - moving));
+}
+
 /// Forces and torques on the bodies, from those on their spheres.
 template <int D>
 void ClumpEngine<D>::add_up() {
-  body_sums_.clear({0, bodies_.size()});
   team_->split(bodies_.moving, [&](Part range, std::size_t) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       Vec<D> force{};
@@ -146,9 +158,9 @@ void ClumpEngine<D>::add_up() {
       for (int k = 0; k < turns<D>; ++k) body_sums_.torque[k][i] = torque[k];
     }
   });
-  for (std::size_t i = bodies_.moving; i < bodies_.size(); ++i)
-    for (int k = 0; k < D; ++k)
-      body_sums_.force[k][i] = sphere_sums_.force[k][first_.back() + (i - bodies_.moving)];
+  for_touched_beads([&](std::size_t sphere, std::size_t body) {
+    for (int k = 0; k < D; ++k) body_sums_.force[k][body] = sphere_sums_.force[k][sphere];
+  });
 }
 
 template <int D>

@@ -81,6 +81,8 @@ class ClumpEngine final : public Engine {
   Contact told(const Contacts<D>& contacts, std::size_t c) const;
   template <class Each>
   void for_contacts(const Each& each) const;
+  template <class Visit>
+  void for_touched_beads(const Visit& visit) const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);
 };

@@ -143,6 +143,26 @@ void ContactMemory<D>::reorder(std::span<const std::int32_t> place) {
     if (!n.empty()) chute::reorder(n, from);
 }
 
+template <int D>
+void ContactMemory<D>::renumber(std::span<const std::int32_t> place, std::int32_t shift) {
+  const auto now = [&](std::int32_t k) {
+    return static_cast<std::size_t>(k) < place.size() ? place[static_cast<std::size_t>(k)] : k + shift;
+  };
+  std::vector<std::int32_t> from;
+  for (std::size_t c = 0; c < count_; ++c) {
+    i_[c] = now(i_[c]), j_[c] = now(j_[c]);
+    if (i_[c] >= 0 && j_[c] >= 0) from.push_back(static_cast<std::int32_t>(c));
+  }
+  const auto keep = [&](auto& values) {
+    if (!values.empty()) chute::reorder(values, from);
+  };
+  keep(i_), keep(j_);
+  for (auto& column : columns_) keep(column);
+  for (auto& n : normal_) keep(n);
+  count_ = from.size();
+  i_.resize(count_), j_.resize(count_);
+}
+
 template class ContactMemory<2>;
 template class ContactMemory<3>;
 

@@ -42,6 +42,9 @@ class ContactMemory {
   void carry(const Grains<D>& grains, const Contacts<D>& contacts, double duration, Part range, Isa isa);
   /// The grain that was k is now place[k]; fixed ones and walls stay.
   void reorder(std::span<const std::int32_t> place);
+  /// The moving grain that was k is now place[k], in the same order, or is gone (−1), and with it its contacts; fixed ones and
+  /// walls are numbered `shift` higher.
+  void renumber(std::span<const std::int32_t> place, std::int32_t shift);
 
   /// Where a contact's memory was in the previous step; negative: it began in this one.
   const std::int32_t* source() const { return source_.data(); }

@@ -70,6 +70,14 @@ struct GrainSums {
     for (auto& f : force) zero(f);
     for (auto& t : torque) zero(t);
   }
+  /// The same of the fixed grains, which lie behind the `moving` ones. Only the last contacts have put something on them, and
+  /// a few grains on a plane of thousands touch few of them: clearing them all took half of the time of a ball's step.
+  void clear_fixed(const Contacts<D>& last, std::size_t moving) {
+    const std::size_t all = normal_loss.size();
+    if (last.count >= all - moving) return clear({moving, all});
+    for (std::size_t c = 0; c < last.count; ++c)
+      if (const auto j = static_cast<std::size_t>(last.j[c]); j >= moving) clear({j, j + 1});
+  }
 };
 
 }  // namespace chute::soft

@@ -8,10 +8,12 @@
 #include <cereal/types/vector.hpp>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
+#include "core/sphere.hpp"
 #include "engines/kind/deep_start.hpp"
 
 namespace chute::soft {
@@ -24,12 +26,17 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
       walls_(setup.surroundings(), laws_of_grains(setup), laws_of_walls(setup),
              {setup.isa, slip_rule(setup.scheme)}),
+      exchange_(setup.surroundings(), setup.time_step),
+      grains_at_start_(static_cast<std::int64_t>(grains_.size())),
       touches_(grains_.moving, setup.contact_time),
       team_(std::make_unique<Team>(setup.threads)),
       tiles_(std::make_unique<TimeTiles<D>>(*strips_, setup.many.grains_per_tile)) {
   sums_.resize(grains_.size());
-  const auto smallest = std::min_element(grains_.radius.begin(), grains_.radius.end());
-  if (smallest != grains_.radius.end()) stages_.watch_for(setup.deepest_overlap * *smallest);
+  if (exchange_.any()) {
+    ids_.resize(grains_.size());
+    std::iota(ids_.begin(), ids_.end(), 0);
+  }
+  watch_overlaps();
   for (int k = 0; k < D; ++k)
     start_place_[k].assign(grains_.position[k].begin(),
                            grains_.position[k].begin() + static_cast<std::ptrdiff_t>(grains_.moving));
@@ -40,11 +47,27 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
 }
 
 template <int D>
+void SoftEngine<D>::watch_overlaps() {
+  const auto smallest = std::min_element(grains_.radius.begin(), grains_.radius.end());
+  if (smallest != grains_.radius.end()) stages_.watch_for(setup_.deepest_overlap * *smallest);
+}
+
+template <int D>
 void SoftEngine<D>::advance(std::int64_t step) {
-  if (step <= step_) return;
+  while (step_ < step) {
+    advance_same_grains(exchange_.any() ? std::min(step, exchange_.next_after(step_)) : step);
+    if (exchange_.lets_out_after(step_)) let_out();
+    if (exchange_.lets_in_after(step_)) let_in();
+  }
+}
+
+template <int D>
+void SoftEngine<D>::advance_same_grains(std::int64_t step) {
   integrator_.predict(grains_, sums_, *team_);
   for (;;) {
-    if (sorts() && step_ % setup_.many.sort_every == 0) sort();
+    // Whenever somebody came or went the order is that of the ids again.
+    const bool renewed = exchange_.any() && order_.empty();
+    if (sorts() && (step_ % setup_.many.sort_every == 0 || renewed)) sort();
     if (advance_in_tiles(step)) continue;
     ++step_;
     forces(setup_.time_step);
@@ -61,6 +84,105 @@ void SoftEngine<D>::advance(std::int64_t step) {
   check_floor();
 }
 
+/// Grains that are beyond the end leave, and with them the energy of their motion and that of their contacts. What they have lost
+/// and what gravity gave them stays in the account.
+template <int D>
+void SoftEngine<D>::let_out() {
+  const auto leaves = [&](std::size_t i) { return exchange_.leaves(grains_, i); };
+  std::size_t first = 0;
+  while (first < grains_.moving && !leaves(first)) ++first;
+  if (first == grains_.moving) return;
+  back_to_ids();
+  look_again();
+  const auto now = energy();
+  const Vec<D> g = setup_.tilt ? Vec<D>{} : setup_.gravity;
+  const auto view = grains();
+  std::vector<std::int32_t> stay;
+  for (std::size_t i = 0; i < grains_.moving; ++i) {
+    if (!leaves(i)) {
+      stay.push_back(static_cast<std::int32_t>(i));
+      continue;
+    }
+    exchange_.let_out(grains_, i);
+    for (std::size_t k = 0; k < D; ++k)
+      account_.gravity_work +=
+          grains_.mass[i] * g[static_cast<int>(k)] * (view.unwrapped(i, k) - start_place_[k][i]);
+    account_.normal_loss += sums_.normal_loss[i];
+    account_.shear_loss += sums_.shear_loss[i];
+  }
+  renew(stay, {});
+  account_.outflow += now.stored() - energy().stored();
+}
+
+template <int D>
+void SoftEngine<D>::let_in() {
+  back_to_ids();
+  const auto come = exchange_.let_in(grains_, step_);
+  if (come.empty()) return;
+  std::vector<std::int32_t> stay(grains_.moving);
+  std::iota(stay.begin(), stay.end(), 0);
+  renew(stay, come);
+  for (const auto& [grain, place, velocity] : come)
+    account_.inflow += 0.5 * grain.mass * dot(velocity, velocity);
+}
+
+/// Of the moving grains those at `stay` are left, and others come. Grains are kept in the order of their ids.
+template <int D>
+void SoftEngine<D>::renew(std::span<const std::int32_t> stay, std::span<const Arrival<D>> come) {
+  const std::size_t before = grains_.moving, more = come.size();
+  std::vector<std::int32_t> place(before, -1);
+  for (std::size_t k = 0; k < stay.size(); ++k)
+    place[static_cast<std::size_t>(stay[k])] = static_cast<std::int32_t>(k);
+  resize(stay, more);
+  const auto shift = static_cast<std::int32_t>(grains_.moving) - static_cast<std::int32_t>(before);
+  stages_.memory().renumber(place, shift);
+  walls_.renumber(place, shift);
+  for (std::size_t k = 0; k < more; ++k) put_in(stay.size() + k, come[k]);
+  // Ids go on behind all that there ever were.
+  for (std::size_t k = 0; k < more; ++k)
+    ids_[stay.size() + k] = grains_at_start_ + exchange_.entered() - static_cast<std::int64_t>(more - k);
+  watch_overlaps();
+  look_again();
+}
+
+/// The arrays of all that is kept of grains, for those that stay and so many more (zeros).
+template <int D>
+void SoftEngine<D>::resize(std::span<const std::int32_t> stay, std::size_t more) {
+  const std::size_t before = grains_.moving;
+  const auto each = [&](auto& values) { chute::renew(values, stay, before, more); };
+  const std::size_t orders = setup_.scheme == Scheme::gear5 ? 3 : 1;
+  for (std::size_t order = 0; order < orders; ++order)
+    for (auto& a : integrator_.derivatives()[order]) each(a);
+  for (auto& a : start_place_) each(a);
+  each(sums_.normal_loss), each(sums_.shear_loss), each(ids_);
+  grains_.renew(stay, more);
+  sums_.resize(grains_.size());
+  sums_.clear({0, grains_.size()});
+  contacts_.count = 0;
+  list_.start_over();
+}
+
+/// A grain that has come in.
+template <int D>
+void SoftEngine<D>::put_in(std::size_t at, const Arrival<D>& arrival) {
+  const auto& [grain, r, v] = arrival;
+  const Vec<D> g = setup_.gravity_at(time());
+  for (int k = 0; k < D; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    grains_.position[axis][at] = start_place_[axis][at] = r[k];
+    grains_.velocity[axis][at] = v[k];
+    integrator_.derivatives()[0][axis][at] = g[k];
+  }
+  for (int k = 0; k < orientation_numbers<D>; ++k)
+    grains_.orientation[static_cast<std::size_t>(k)][at] = as_at_start<D>()[k];
+  grains_.radius[at] = grain.radius;
+  grains_.mass[at] = grain.mass;
+  grains_.inertia[at] = sphere_inertia(grain.mass, grain.radius);
+  grains_.inverse_mass[at] = 1 / grain.mass;
+  grains_.inverse_inertia[at] = setup_.inflow->rotation ? 1 / grains_.inertia[at] : 0;
+  grains_.material[at] = grain.material;
+}
+
 /// Gravity as it is now, and its work in this step.
 template <int D>
 void SoftEngine<D>::tilt() {
@@ -75,7 +197,7 @@ search::Candidates<D> SoftEngine<D>::candidates() {
   try {
     return list_.near(grains_, *team_);
   } catch (const NotANumber& error) {
-    leave_physics(id_at(error.grain),
+    leave_physics(static_cast<std::size_t>(name_at(error.grain)),
                   "its place is not a number: the time step is too long for these forces");
   }
 }
@@ -83,22 +205,10 @@ search::Candidates<D> SoftEngine<D>::candidates() {
 /// Forces on the moving grains must be 0 before.
 template <int D>
 void SoftEngine<D>::forces(double duration) {
-  forget_forces_on_fixed();
+  sums_.clear_fixed(contacts_, grains_.moving);
   stages_.evaluate(candidates(), grains_, contacts_, duration, *team_);
   stages_.apply(contacts_, grains_, duration, sums_, *team_);
   walls_.evaluate(grains_, time(), duration, stages_.deepest(), sums_);
-}
-
-/// Only the last contacts have put something on fixed grains. A ball on a plane of thousands touches a few of them: clearing
-/// them all took half of its time.
-template <int D>
-void SoftEngine<D>::forget_forces_on_fixed() {
-  if (contacts_.count >= grains_.size() - grains_.moving) {
-    sums_.clear({grains_.moving, grains_.size()});
-    return;
-  }
-  for (std::size_t c = 0; c < contacts_.count; ++c)
-    if (const auto j = static_cast<std::size_t>(contacts_.j[c]); j >= grains_.moving) sums_.clear({j, j + 1});
 }
 
 /// Collecting impacts remembers grains by their ids from step to step.
@@ -189,8 +299,8 @@ template <int D>
 void SoftEngine<D>::check_overlaps() const {
   for_contacts([&](const Contacts<D>& contacts, std::size_t c) {
     if (const auto what =
-            too_deep(setup_, grains_.radius, contacts, c, [&](std::size_t j) { return id_at(j); }))
-      leave_physics(id_at(static_cast<std::size_t>(contacts.i[c])), *what);
+            too_deep(setup_, grains_.radius, contacts, c, [&](std::size_t j) { return name_at(j); }))
+      leave_physics(static_cast<std::size_t>(name_at(static_cast<std::size_t>(contacts.i[c]))), *what);
   });
 }
 
@@ -288,7 +398,8 @@ template <int D>
 void SoftEngine<D>::check_floor() const {
   const auto& height = grains_.position[D - 1];
   for (std::size_t i = 0; i < grains_.moving; ++i)
-    if (height[i] < setup_.floor) leave_physics(id_at(i), "it fell through the bed");
+    if (height[i] < setup_.floor)
+      leave_physics(static_cast<std::size_t>(name_at(i)), "it fell through the bed");
 }
 
 /// Where each grain is kept, by its id.
@@ -310,10 +421,20 @@ const Grains<D>& SoftEngine<D>::state() const {
 
 template <int D>
 GrainsView SoftEngine<D>::grains() const {
-  if (order_.empty()) return view_of(grains_, sums_.force, setup_.domain, time());
+  const auto named = [&](GrainsView view) {
+    view.id = ids_;
+    return view;
+  };
+  if (order_.empty()) return named(view_of(grains_, sums_.force, setup_.domain, time()));
   force_by_id_ = sums_.force;
   for (auto& f : force_by_id_) chute::reorder(f, places());
-  return view_of(state(), force_by_id_, setup_.domain, time());
+  return named(view_of(state(), force_by_id_, setup_.domain, time()));
+}
+
+template <int D>
+std::vector<std::pair<std::string, double>> SoftEngine<D>::tells() const {
+  if (!exchange_.any()) return {};
+  return exchange_.tells(grains_.moving, step_);
 }
 
 template <int D>
@@ -362,10 +483,27 @@ std::vector<Contact> SoftEngine<D>::contacts() const {
   return told_of;
 }
 
+/// Where grains come and go: how many there are, which, and what they are, which else follows from the scene.
+template <int D>
+template <class Archive, class Self>
+void SoftEngine<D>::transfer_who_is_there(Archive& archive, Self& self) {
+  auto moving = self.grains_.moving;
+  archive(moving, self.exchange_);
+  if constexpr (std::is_same_v<Archive, StateInput>) {
+    archive.must_hold(moving);
+    self.resize({}, moving);
+  }
+  archive(kept(self.ids_));
+  Grains<D>::for_columns(self.grains_, [&](const GrainField& field, auto& column) {
+    if (!field.changes) archive(kept(column));
+  });
+}
+
 /// Everything that changes during a run, for both directions of a checkpoint.
 template <int D>
 template <class Archive, class Self>
 void SoftEngine<D>::transfer(Archive& archive, Self& self) {
+  if (self.exchange_.any()) transfer_who_is_there(archive, self);
   archive(self.order_, kept(self.grains_), kept(self.integrator_.derivatives()), kept(self.start_place_),
           self.account_, kept(self.sums_.normal_loss), kept(self.sums_.shear_loss), self.step_,
           self.collecting_, self.touched_, self.touches_, self.stages_.memory(), self.walls_);
@@ -396,7 +534,9 @@ void SoftEngine<D>::restore(std::istream& in) {
   transfer(archive, *this);
   if (!order_.empty() && !is_order(order_, grains_.moving)) wrong_state();
   for (const auto& [i, j] : touched_) must_name(std::array{i, j}, grains_.size() + walls_.count());
-  if (!order_.empty())
+  if (exchange_.any())
+    watch_overlaps();
+  else if (!order_.empty())
     Grains<D>::for_columns(grains_, [&](const GrainField& field, auto& column) {
       if (!field.changes) chute::reorder(column, order_);
     });

@@ -3,6 +3,7 @@
 
 #include "core/engine.hpp"
 #include "engines/soft/contact_stages.hpp"
+#include "engines/soft/exchange.hpp"
 #include "engines/soft/integrator.hpp"
 #include "engines/soft/soft_setup.hpp"
 #include "engines/soft/strips.hpp"
@@ -16,7 +17,8 @@ namespace chute::soft {
 /// predict → neighbour list → contacts → forces → account → impacts → correct.
 ///
 /// Inside, many grains are kept in the order of Strips, and take several steps at once (TimeTiles) where
-/// nobody looks. Outside they always have their ids.
+/// nobody looks. Outside they always have their ids: those of the start, and of grains that come in meanwhile (Exchange) the
+/// numbers that follow. Then the moving grains lie in the order of these ids, and GrainsView::id tells them.
 template <int D>
 class SoftEngine final : public Engine {
  public:
@@ -30,12 +32,13 @@ class SoftEngine final : public Engine {
   void collect_impacts(bool on) override;
   std::vector<Impact> take_impacts() override;
   std::vector<Parting> take_partings() override { return std::exchange(partings_, {}); }
+  std::vector<std::pair<std::string, double>> tells() const override;
   void save(std::ostream& out) const override;
   void restore(std::istream& in) override;
 
   /// The grains by their ids; a copy if they are kept in another order, which stays until the next call.
   const Grains<D>& state() const;
-  /// Id of the grain that is kept at this place of the order.
+  /// Which of `state()` the grain is that is kept at this place of the order.
   std::size_t id_at(std::size_t place) const {
     return place < order_.size() ? static_cast<std::size_t>(order_[place]) : place;
   }
@@ -47,6 +50,7 @@ class SoftEngine final : public Engine {
 
  private:
   void advance(std::int64_t step) override;
+  void advance_same_grains(std::int64_t step);
 
   SoftSetup<D> setup_;
   Grains<D> grains_;
@@ -54,6 +58,9 @@ class SoftEngine final : public Engine {
   ContactStages<D> stages_;
   Integrator<D> integrator_;
   WallContacts<D> walls_;
+  Exchange<D> exchange_;
+  std::int64_t grains_at_start_;   // bed and all: those that come in are numbered from here on
+  std::vector<std::int64_t> ids_;  // of all grains as `state()` has them; empty where nobody comes or goes
   Contacts<D> contacts_;
   GrainSums<D> sums_;
   std::array<Array, D> start_place_;  // of the moving grains, for gravity's work
@@ -76,7 +83,6 @@ class SoftEngine final : public Engine {
 
   search::Candidates<D> candidates();
   void forces(double duration);
-  void forget_forces_on_fixed();
   bool sorts() const;
   bool advance_in_tiles(std::int64_t step);
   void sort();
@@ -85,7 +91,16 @@ class SoftEngine final : public Engine {
   void look_again();
   std::vector<std::int32_t> places() const;
   void tilt();
+  void watch_overlaps();
   void check_overlaps() const;
+  void let_out();
+  void let_in();
+  void renew(std::span<const std::int32_t> stay, std::span<const Arrival<D>> come);
+  void resize(std::span<const std::int32_t> stay, std::size_t more);
+  void put_in(std::size_t at, const Arrival<D>& arrival);
+  std::int64_t name_at(std::size_t place) const {
+    return ids_.empty() ? static_cast<std::int64_t>(id_at(place)) : ids_[id_at(place)];
+  }
   void find_impacts();
   void remember_touching();
   Contact told(const Contacts<D>& contacts, std::size_t c) const;
@@ -100,6 +115,8 @@ class SoftEngine final : public Engine {
   void check_floor() const;
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self);
+  template <class Archive, class Self>
+  static void transfer_who_is_there(Archive& archive, Self& self);
 };
 
 }  // namespace chute::soft

@@ -139,6 +139,7 @@ Offers SoftMethod::offers() const {
           .wall_surfaces = true,
           .materials = true,
           .tilting = true,
+          .open = true,
           .threads = true};
 }
 

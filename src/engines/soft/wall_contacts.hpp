@@ -58,6 +58,9 @@ class WallContacts {
   void reorder(std::span<const std::int32_t> place) {
     for (auto& group : groups_) group.stages.memory().reorder(place);
   }
+  void renumber(std::span<const std::int32_t> place, std::int32_t shift) {
+    for (auto& group : groups_) group.stages.memory().renumber(place, shift);
+  }
   template <class Archive>
   void serialize(Archive& archive) {
     for (auto& group : groups_) archive(group.stages.memory());
