@@ -101,8 +101,9 @@ void sort_into(Out out, const std::int32_t* numbers, std::size_t count) {
 template <int D>
 void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double skin, PairNames& pairs,
                        Team& team) {
-  const Layout<D> layout(grains, domain, skin);
   const std::size_t n = grains.size();
+  if (n == 0) return pairs.clear();  // an open chute may have run empty
+  const Layout<D> layout(grains, domain, skin);
   const auto cell_at = [&](std::size_t i) {
     std::array<int, D> c;
     for (int k = 0; k < D; ++k) c[k] = layout.index_along(k, grains.position[k][i]);
