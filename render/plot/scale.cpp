@@ -378,6 +378,35 @@ Span span_of(const Axis& axis, const Extent& extent) {
   return span;
 }
 
+std::vector<std::string> value_texts(const std::vector<double>& values) {
+  constexpr double share = 0.02;  // of the distance to the next value that a text may be off
+  double largest = 0, distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    largest = std::max(largest, std::abs(values[i]));
+    for (std::size_t k = 0; k < i; ++k)
+      if (values[k] != values[i]) distance = std::min(distance, std::abs(values[i] - values[k]));
+  }
+  if (!(largest > 0)) return std::vector<std::string>(values.size(), "$0$");
+  distance = std::min(distance, largest);
+  const auto rounded = [](double value, int digit) {
+    return times_ten(std::round(times_ten(value, -digit)), digit);
+  };
+  const auto is_told = [&](double v, int digit) {
+    return std::abs(rounded(v, digit) - v) <= share * distance;
+  };
+  int last = std::max(0, decade_of(distance));
+  while (last > decade_of(distance) - most_digits &&
+         !std::all_of(values.begin(), values.end(), [&](double v) { return is_told(v, last); }))
+    --last;
+  std::vector<double> told;
+  for (const double v : values) told.push_back(rounded(v, last));
+  const auto labels = label(told, last);
+  if (labels.factor.empty()) return labels.texts;
+  std::vector<std::string> texts;
+  for (const double v : told) texts.push_back("$" + full(v) + "$");
+  return texts;
+}
+
 Ticks ticks_for(const Span& span, double length, double size, bool horizontal) {
   return Ruler(span, length, size, horizontal).ticks();
 }
