@@ -380,7 +380,8 @@ std::string figure_keys() {
     if (dot != key.key.npos) key.key = key.key.substr(dot + 1);
     // Axes look the same everywhere.
     if (table.starts_with("plot.") && table != "plot.x" &&
-        (table.ends_with(".x") || table.ends_with(".y") || table.ends_with(".right") || table.ends_with(".top")))
+        (table.ends_with(".x") || table.ends_with(".y") || table.ends_with(".right") ||
+         table.ends_with(".top")))
       continue;
     auto found = std::ranges::find(tables, table, &std::pair<std::string, std::vector<KeyText>>::first);
     if (found == tables.end()) found = tables.insert(found, {table, {}});

@@ -65,7 +65,57 @@ std::vector<ColumnText> behind_clock(const char* meaning, std::vector<ColumnText
   return all;
 }
 
-std::vector<TableText> all_tables() {
+/// What experiments with contact laws leave (src/experiments).
+std::vector<TableText> experiment_tables() {
+  // The cylinder's units are m = g = r = 1 (thesis 3.2).
+  constexpr Unit weight{"mg", "mg"}, gravity{"g", "g"}, turning{"g/r", "g/r"},
+      fall_time{"sqrt(r/g)", "sqrt(r/g)"}, fall_speed{"sqrt(gr)", "sqrt(gr)"}, roll{"sqrt(g/r)", "sqrt(g/r)"};
+  return {
+      {"result.csv",
+       "a result of an experiment, whose meaning a comment tells",
+       "half of the range over which it was averaged; empty where nothing was: the motion is computed, without chance",
+       {column("name", none, "of the result"), column("unit", none, "of its value; empty for pure numbers"),
+        column("value", none, "in that unit; signs as the comment says")}},
+      {"series.csv of impacts",
+       "a time in the contact of two grains",
+       "",
+       {column("time", time, "since the surfaces met"), column("overlap", length, "of the two; > 0 in touch"),
+        column("F_n", force, "normal force; > 0 pushes apart"),
+        column("F_s", force, "shear force on j along s = (n_y, -n_x), with n from i to j"),
+        column("v_n", speed, "relative velocity of j along n; < 0 on approach"),
+        column("v_s", speed, "relative velocity of the surfaces along s, with the spins"),
+        column("omega_*", spin, "spin of i and of j, anticlockwise")}},
+      {"series.csv of column",
+       "a time since the column met the wall",
+       "",
+       {column("time", time, "since the surfaces met"), column("contacts", none, "pairs that touch now"),
+        column("momentum", none,
+               "mean velocity of the grains over that before; 1 at first, < 0 when they fly off"),
+        column("energy", none, "mean energy of motion over that before")}},
+      {"series.csv of brake-failure",
+       "a time since the ball met the wall",
+       "",
+       {column("time", time, "since the surfaces met"),
+        column("x", length, "of the ball's centre, along the wall"), column("y", length, "away from it"),
+        column("v_x", speed, "of the ball along the wall"),
+        column("v_y", speed, "away from it: < 0 on approach"),
+        column("omega", spin, "of the ball, anticlockwise"),
+        column("overlap", length, "largest with a grain of the wall"),
+        column("contacts", none, "grains of the wall that it touches now")}},
+      {"series.csv of pushed-cylinder",
+       "a time since the block pushes",
+       "",
+       {column("time", fall_time, "since the first push began"),
+        column("F_s^p", weight, "friction at the plane, > 0 against the push (3.26)"),
+        column("F_s^b", weight, "friction at the block, > 0 while it presses the cylinder down (3.27)"),
+        column("dv/dt", gravity, "acceleration along the plane, > 0 with the push"),
+        column("domega/dt", turning, "of the spin, > 0 as the cylinder rolls forward"),
+        column("v", fall_speed, "velocity along the plane, > 0 with the push"),
+        column("omega", roll, "spin, > 0 as the cylinder rolls forward")}},
+  };
+}
+
+std::vector<TableText> run_tables() {
   return {
       {"series.csv",
        "an output time",
@@ -349,6 +399,14 @@ std::vector<TableText> all_tables() {
   };
 }
 
+std::vector<TableText> all_tables() {
+  auto all = run_tables();
+  auto more = experiment_tables();
+  all.insert(std::ranges::find(all, "figure", &TableText::file), std::make_move_iterator(more.begin()),
+             std::make_move_iterator(more.end()));
+  return all;
+}
+
 bool stands_for(const std::string& pattern, std::string_view name) {
   if (!pattern.ends_with('*')) return pattern == name;
   return name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1));
@@ -380,13 +438,18 @@ std::optional<ColumnText> column_text(const TableText& table, std::string_view n
 }
 
 const TableText* find_table_text(std::string_view file, const std::vector<std::string>& columns) {
-  const auto& tables = table_texts();
-  const auto named = std::ranges::find(tables, file, &TableText::file);
-  if (named != tables.end()) return &*named;
-  const auto knows_all = std::ranges::find_if(tables, [&](const TableText& table) {
-    return std::ranges::all_of(columns, [&](const auto& c) { return column_text(table, c).has_value(); });
-  });
-  return knows_all == tables.end() ? nullptr : &*knows_all;
+  const auto known = [&](const TableText& table) {
+    return std::ranges::count_if(columns, [&](const auto& c) { return column_text(table, c).has_value(); });
+  };
+  const TableText* best = nullptr;  // of those of this name, such as series.csv of runs and of experiments
+  for (const auto& table : table_texts())
+    if ((table.file == file || table.file.starts_with(std::string(file) + " of ")) &&
+        (!best || known(table) > known(*best)))
+      best = &table;
+  if (best) return best;
+  for (const auto& table : table_texts())
+    if (known(table) == static_cast<std::ptrdiff_t>(columns.size())) return &table;
+  return nullptr;
 }
 
 std::string with_column_comments(std::string_view file, const std::string& csv, bool is_si) {

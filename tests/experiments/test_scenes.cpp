@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
 #include "../runs/folder.hpp"
 #include "common/atomic_file.hpp"
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "experiments/perform.hpp"
 #include "experiments/recipe.hpp"
+#include "read/table.hpp"
 
 using namespace chute;
 using namespace chute::test;
@@ -54,6 +57,23 @@ TEST_CASE("Every experiment runs, and what it wrote runs again to the same bytes
     CHECK(first.count("series.csv") + first.count("result.csv") + first.count("scene.toml") == 3);
     CHECK(first.count("frames.pvd") == (name == "brake-failure" ? 1 : 0));
     CHECK(first.at("series.csv").size() > 2000);
+    for (const char* file : {"series.csv", "result.csv"}) {
+      const auto text = read_file(folder / "once" / file);
+      const auto table = read::parse_table(text, file);
+      const auto* meanings = find_table_text(file, table.header);
+      REQUIRE(meanings);
+      for (const auto& column : table.header) {
+        CAPTURE(file, column);
+        CHECK(column_text(*meanings, column));
+        const bool spin = column.starts_with("omega_");
+        if (!column.ends_with("_err"))
+          CHECK(text.find("\n# column " + (spin ? "omega_*" : column)) != std::string::npos);
+      }
+    }
+    const auto outcome = read::read_table(folder / "once/result.csv");
+    for (const auto& result : outcome.text("name"))  // each says what it is
+      CHECK(
+          std::ranges::any_of(outcome.comments, [&](const auto& c) { return c.starts_with(result + ": "); }));
     options.directory = folder / "once";
     CHECK_THROWS_AS(run_experiment(again, options), InputError);  // a run is there
   }
