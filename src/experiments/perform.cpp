@@ -205,13 +205,17 @@ Outcome brake_failure(const Experiment& e, const Recording& record) {
 Outcome pushed_cylinder(const Experiment& e, const Recording& record) {
   Outcome made;
   const auto pushes = e.pushes();
-  const int every =
-      record ? static_cast<int>(std::max<std::int64_t>(1, std::llround(e.series.every / e.time_step))) : 1;
-  const auto states = push(e.cylinder(), pushes, every);
+  // The means below are over every step, however many of them the series has.
+  const auto states = push(e.cylinder(), pushes, 1);
+  const auto every =
+      record ? static_cast<std::size_t>(std::max<std::int64_t>(1, std::llround(e.series.every / e.time_step)))
+             : 1;
   made.columns = {"time", "F_s^p", "F_s^b", "dv/dt", "domega/dt", "v", "omega"};
-  for (const auto& s : states)
+  for (std::size_t k = 0; k < states.size(); k += every) {
+    const auto& s = states[k];
     made.series.push_back(
         {s.time, s.plane_force, s.block_force, s.acceleration, s.spin_up, s.velocity, s.spin});
+  }
   auto laws = e.laws();
   double begin = 0;
   for (std::size_t k = 0; k < pushes.size(); ++k) {

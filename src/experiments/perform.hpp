@@ -9,7 +9,8 @@ namespace chute::experiments {
 /// What an experiment gave.
 struct Outcome {
   std::vector<Fact> results;
-  std::map<std::string, double> errors;  ///< of results that are means of a motion that goes on: half of its range
+  std::map<std::string, double>
+      errors;  ///< of results that are means of a motion that goes on: half of its range
   std::int64_t steps = 0;
   double time = 0;
   // only if recorded:

@@ -80,6 +80,19 @@ TEST_CASE("Every experiment runs, and what it wrote runs again to the same bytes
   CHECK_FALSE(is_experiment(file_of("demo")));
 }
 
+TEST_CASE("Results do not depend on how often the series is written") {
+  Folder folder;
+  std::vector<std::string> results;
+  for (const char* every : {"output.series.every=1e-4", "output.series.every=0.02"}) {
+    run::RunOptions options;
+    options.directory = folder / std::to_string(results.size());
+    run_experiment(read_experiment(file_of("pushed-cylinder"), {every}), options);
+    results.push_back(read_file(options.directory / "result.csv"));
+  }
+  CHECK(results[0] == results[1]);
+  CHECK(results[0].find(",,\n") == std::string::npos);  // each has a value and an error
+}
+
 TEST_CASE("A normal impact has the restitution of its law, whatever the law") {
   const std::string fine = "experiment.steps_per_contact=5000";
   double worst = 0;
