@@ -141,6 +141,10 @@ class Builder {
     axis.max = own.max ? own.max : general.max;
     axis.names = own.names.empty() ? general.names : own.names;
     axis.times = times && axis.names.empty();
+    const auto from = own.from ? own.from : general.from, to = own.to ? own.to : general.to;
+    if ((from || to) && !axis.times) fail_recipe("from and to are of axes of dates: give min and max");
+    if (from) axis.min = from;
+    if (to) axis.max = to;
     if (axis.times && axis.scale == Scale::log) fail_recipe("dates have no logarithmic axis");
     if (axis.times && factor(general, own) != 1) fail_recipe("dates have no factor");
     return axis;

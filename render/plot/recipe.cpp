@@ -12,6 +12,7 @@
 #include "plot/draw.hpp"
 #include "plot/fonts.hpp"
 #include "plot/mathtext.hpp"
+#include "read/iso_time.hpp"
 
 namespace chute::plot {
 namespace {
@@ -152,6 +153,21 @@ void read_series_color(KeyLister& a, SeriesRecipe& series, const char* words) {
   read_ordinal(a, "color", series.color, color_words, words);
 }
 
+void read_date(TomlReader& a, std::string_view key, std::optional<double>& target, const char* words) {
+  std::optional<std::string> text;
+  a.value(key, text, words);
+  if (!text) return;
+  target = read::iso_time(*text);
+  a.check(
+      target.has_value(), key,
+      fmt::format(
+          "\"{}\" is no date: write \"2026-03-07\", \"2026-03-07T14:05:09\" or with a zone, +01:00, behind it",
+          *text));
+}
+void read_date(KeyLister& a, std::string_view key, std::optional<double>&, const char* words) {
+  a.value(key, std::optional<std::string>(), words);
+}
+
 }  // namespace
 
 template <class Archive>
@@ -164,6 +180,11 @@ static void describe(Archive& a, AxisRecipe& axis) {
   a.check(
       axis.scale != AxisRecipe::Scale::log || ((!axis.min || *axis.min > 0) && (!axis.max || *axis.max > 0)),
       "scale", "a log axis has min and max > 0");
+  read_date(a, "from", axis.from, "a date in place of min, \"2026-03-07\" or \"2026-03-07T14:05\"");
+  read_date(a, "to", axis.to, "a date in place of max");
+  a.check(!(axis.min && axis.from) && !(axis.max && axis.to), "from",
+          "give from or min, to or max, not both");
+  a.check(!axis.from || !axis.to || *axis.from < *axis.to, "from", "must be before to");
   a.value("factor", axis.factor, "times the data: 100 from m to cm");
   a.value("names", axis.names, "labels of 1, 2 … in place of numbers");
   a.check(axis.names.empty() || axis.scale != AxisRecipe::Scale::log, "names", "not on a log axis");

@@ -38,6 +38,7 @@ class KeyLister;
 ///     scale = "linear"          # linear | log
 ///     min = 0                   # default: from the data; so is max
 ///     max = 16
+///     from = "2026-03-07"       # in place of min, on an axis of dates; so is to
 ///     factor = 100              # times the data: from m to cm
 ///     names = ["a", "b"]        # labels of 1, 2 … in place of numbers; series then stand side by side
 ///
@@ -97,6 +98,7 @@ struct AxisRecipe {
   std::optional<std::string> label;
   enum class Scale { automatic, linear, log } scale = Scale::automatic;
   std::optional<double> min, max, factor;
+  std::optional<double> from, to;  ///< dates, in place of min and max
   std::vector<std::string> names;
 };
 

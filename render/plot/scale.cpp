@@ -347,6 +347,26 @@ class Ruler {
 
 }  // namespace
 
+namespace {
+
+/// Dates and limits are of the calendar; the room beside them ends with it.
+void keep_in_calendar(const Axis& axis, const Extent& data, Span& span) {
+  const auto [first, last] = calendar();
+  const auto is_in = [&](double v) { return v >= first && v <= last; };
+  const auto wrong = [&](const std::string& what) {
+    throw InputError(
+        fmt::format("axis \"{}\": {}: axes of dates go from the year 1 to the year 9999", axis.label, what));
+  };
+  for (const auto& limit : {axis.min, axis.max})
+    if (limit && !is_in(*limit))
+      wrong(fmt::format("the limit {} (in seconds since 1970; dates: from, to)", *limit));
+  if (data.low <= data.high && !(is_in(data.low) && is_in(data.high)))
+    wrong("there are earlier or later dates");
+  span.low = std::clamp(span.low, first, last - 1), span.high = std::clamp(span.high, span.low + 1, last);
+}
+
+}  // namespace
+
 Span span_of(const Axis& axis, const Extent& extent) {
   const auto wrong = [&](const std::string& what) {
     throw InputError(fmt::format("axis \"{}\": {}", axis.label, what));
@@ -373,6 +393,7 @@ Span span_of(const Axis& axis, const Extent& extent) {
     data.low = axis.scale == Scale::log ? std::max(*axis.max / 10, least)
                                         : held(*axis.max - std::max(1.0, 0.1 * std::abs(*axis.max)));
   Span span = axis.scale == Scale::linear ? padded_linear(axis, data) : padded_log(axis, data);
+  if (axis.times && axis.scale == Scale::linear) keep_in_calendar(axis, extent, span);
   if (axis.min) span.low_limit = *axis.min;
   if (axis.max) span.high_limit = *axis.max;
   return span;
