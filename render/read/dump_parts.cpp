@@ -131,36 +131,64 @@ std::vector<FrameFile> frames_of_parts(const fs::path& source) {
   return frames;
 }
 
-std::optional<std::string> parts_pattern(const std::vector<FrameFile>& frames) {
-  std::map<fs::path, std::vector<double>> times;
-  for (const auto& frame : frames) {
-    if (!frame.time) return {};
-    times[frame.path].push_back(*frame.time);
-  }
-  if (times.size() < 2) return {};
-  for (const auto& [file, own] : times)
-    if (own != times.begin()->second) return {};
-  // which number in the first name makes all the others when it goes from 0 on
-  const auto name = times.begin()->first.filename().string();
+namespace {
+
+/// The name that these make with a `%` for one of its numbers, which goes from 0 on without a gap.
+std::optional<std::string> pattern_of(const std::vector<std::string>& names) {
+  const auto& name = names[0];
   for (std::size_t at = 0; at < name.size(); ++at) {
     if (std::isdigit(static_cast<unsigned char>(name[at])) == 0) continue;
     std::size_t end = at;
     while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0) ++end;
     const auto before = name.substr(0, at), behind = name.substr(end);
     std::set<std::size_t> numbers;
-    for (const auto& [file, own] : times) {
-      const auto other = file.filename().string();
+    for (const auto& other : names) {
       if (other.size() <= before.size() + behind.size() || !other.starts_with(before) ||
           !other.ends_with(behind))
         break;
       if (const auto number = number_of(other.substr(at, other.size() - before.size() - behind.size())))
         numbers.insert(*number);
     }
-    if (numbers.size() == times.size() && *numbers.begin() == 0 && *numbers.rbegin() + 1 == numbers.size())
+    if (numbers.size() == names.size() && *numbers.begin() == 0 && *numbers.rbegin() + 1 == numbers.size())
       return before + "%" + behind;
     at = end;
   }
   return {};
+}
+
+/// The same for the files of all times: their other numbers differ.
+std::string for_all_times(const std::string& pattern) {
+  std::string all;
+  for (const char c : pattern) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    if (!digit)
+      all += c;
+    else if (!all.ends_with('*'))
+      all += '*';
+  }
+  return all;
+}
+
+}  // namespace
+
+std::optional<std::string> parts_pattern(const std::vector<FrameFile>& frames) {
+  std::map<fs::path, std::vector<double>> times_of;
+  for (const auto& frame : frames) {
+    if (!frame.time) return {};
+    times_of[frame.path].push_back(*frame.time);
+  }
+  std::map<std::vector<double>, std::vector<std::string>> with_times;
+  for (const auto& [file, times] : times_of) with_times[times].push_back(file.filename().string());
+  std::vector<std::string> patterns;
+  for (const auto& [times, names] : with_times)
+    if (names.size() > 1)
+      if (auto pattern = pattern_of(names)) patterns.push_back(*pattern);
+  if (patterns.empty()) return {};
+  const auto all = for_all_times(patterns[0]);
+  const bool one_a_time =
+      patterns.size() > 1 &&
+      std::all_of(patterns.begin(), patterns.end(), [&](const auto& p) { return for_all_times(p) == all; });
+  return one_a_time ? all : patterns[0];
 }
 
 PointSet join_parts(std::vector<PointSet> sets, const std::vector<FileBytes>& files) {

@@ -18,7 +18,8 @@ bool names_parts(const std::filesystem::path& source);
 /// time in between.
 std::vector<FrameFile> frames_of_parts(const std::filesystem::path& source);
 
-/// The name with `%` that these files' names make, if they look like parts: numbered from 0 without a gap, all with the same times.
+/// The name with `%` that some of these files' names make, if they look like parts: numbered from 0 without a gap, with the same
+/// times. With a `*` where there are such for several times.
 std::optional<std::string> parts_pattern(const std::vector<FrameFile>& frames);
 
 /// The grains of all parts as one set. InputError if the parts have other columns, times or boxes, or one grain twice.

@@ -135,9 +135,9 @@ std::vector<FrameFile> text_frames(const std::vector<fs::path>& files, const fs:
     return frames;
   if (const auto pattern = parts_pattern(frames))
     throw InputError(fmt::format(
-        "{}: {} files with the same times, as processes of LAMMPS write them: give '{}', and each frame is "
-        "put together of its parts; or one of the files",
-        directory.string(), files.size(), (directory / *pattern).string()));
+        "{}: files with the same times, as processes of LAMMPS write them: give '{}', and each frame is put together of its parts; "
+        "or one of the files",
+        directory.string(), (directory / *pattern).string()));
   std::stable_sort(frames.begin(), frames.end(),
                    [](const auto& a, const auto& b) { return *a.time < *b.time; });
   std::vector<FrameFile> last;
