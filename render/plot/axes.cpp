@@ -53,6 +53,8 @@ Margins Axes::fit(double width, double height) {
   tick_ascent_ = tick_descent_ = 0;
   Margins m;
   const double gap = sizes_.gap;
+  above_ = 0;
+  if (top_) fit_top(width, m);
   double below = 0;  // how far y tick labels reach below the frame
   if (show_y_)
     for (const auto& tick : y_ticks_.major) {
@@ -100,7 +102,7 @@ Margins Axes::fit(double width, double height) {
     m.left = std::max(m.left, gap + widest);
     if (!y_label_.empty())
       m.left = std::max(m.left, gap + widest + 1.3 * gap + y_label_.ascent + y_label_.descent);
-    if (!y_factor_.empty()) m.top = std::max(m.top, gap + y_factor_.ascent + y_factor_.descent);
+    if (!y_factor_.empty()) m.top = std::max(m.top, above_ + gap + y_factor_.ascent + y_factor_.descent);
   }
   if (right_) fit_right(height, m);
   return m;
@@ -123,7 +125,8 @@ void Axes::fit_right(double height, Margins& m) {
   m.right = std::max(m.right, gap + right_widest_);
   if (!right_label_.empty())
     m.right = std::max(m.right, gap + right_widest_ + 1.3 * gap + right_label_.ascent + right_label_.descent);
-  if (!right_factor_.empty()) m.top = std::max(m.top, gap + right_factor_.ascent + right_factor_.descent);
+  if (!right_factor_.empty())
+    m.top = std::max(m.top, above_ + gap + right_factor_.ascent + right_factor_.descent);
 }
 
 void Axes::draw_right(DisplayList& list, const Look& look, const Rect& frame, int panel, double shrink,
@@ -156,7 +159,61 @@ void Axes::draw_right(DisplayList& list, const Look& look, const Rect& frame, in
         1, plot_.right->label);
   if (!right_factor_.empty())
     put(Box::Kind::factor, right_factor_,
-        {frame.right - right_factor_.width, frame.top - gap - right_factor_.descent}, 0, right_ticks_.factor);
+        {frame.right - right_factor_.width, frame.top - above_ - gap - right_factor_.descent}, 0,
+        right_ticks_.factor);
+}
+
+void Axes::fit_top(double width, Margins& m) {
+  const double gap = sizes_.gap;
+  top_ticks_ = ticks_for(*plot_.top, *top_, width, sizes_.tick, true);
+  top_texts_.clear();
+  top_ascent_ = top_descent_ = 0;
+  for (const auto& tick : top_ticks_.major) {
+    const auto& text = top_texts_.emplace_back(set_text(tick.label, sizes_.tick));
+    top_ascent_ = std::max(top_ascent_, text.ascent), top_descent_ = std::max(top_descent_, text.descent);
+    const double at = top_->fraction(tick.value) * width, half = text.width / 2;
+    m.left = std::max(m.left, half - at), m.right = std::max(m.right, at + half - width);
+  }
+  top_label_ = set_to_fit(plot_.top->label, sizes_.label, width);
+  if (!top_label_.empty()) stand_on_strut(top_label_, sizes_.label);
+  top_factor_ = top_ticks_.factor.empty() ? TextBox{} : set_text(top_ticks_.factor, sizes_.tick);
+  above_ = gap + top_ascent_ + top_descent_;
+  if (!top_label_.empty()) above_ += gap + top_label_.ascent + top_label_.descent;
+  if (!top_factor_.empty()) above_ += gap + top_factor_.ascent + top_factor_.descent;
+  m.top = std::max(m.top, above_);
+}
+
+void Axes::draw_top(DisplayList& list, const Look& look, const Rect& frame, int panel, double shrink,
+                    std::vector<Box>& boxes) const {
+  const double gap = sizes_.gap;
+  const Color color = top_color_.value_or(look.ink);
+  Path ticks;
+  const auto place = [&](double value) { return frame.left + top_->fraction(value) * frame.width(); };
+  const auto tick = [&](double value, double length) {
+    const double x = place(value);
+    if (x < frame.left - 0.01 || x > frame.right + 0.01) return;
+    ticks.move({x, frame.top}).line({x, frame.top + length});
+  };
+  for (const auto& t : top_ticks_.major) tick(t.value, shrink * look.major_tick);
+  for (const double v : top_ticks_.minor) tick(v, shrink * look.minor_tick);
+  list.stroke(ticks, {look.hairline, {}, Cap::butt, Join::miter}, color);
+  const auto put = [&](Box::Kind kind, const TextBox& text, Point at, const std::string& source) {
+    draw_text(list, text, at, color);
+    boxes.push_back({kind, text.box_at(at), panel, source});
+  };
+  double y = frame.top - gap - top_descent_;
+  for (std::size_t i = 0; i < top_texts_.size(); ++i)
+    put(Box::Kind::tick_label, top_texts_[i], {place(top_ticks_.major[i].value) - top_texts_[i].width / 2, y},
+        top_ticks_.major[i].label);
+  y -= top_ascent_;
+  if (!top_label_.empty()) {
+    y -= gap + top_label_.descent;
+    put(Box::Kind::axis_label, top_label_, {frame.centre().x() - top_label_.width / 2, y}, plot_.top->label);
+    y -= top_label_.ascent;
+  }
+  if (!top_factor_.empty())
+    put(Box::Kind::factor, top_factor_, {frame.right - top_factor_.width, y - gap - top_factor_.descent},
+        top_ticks_.factor);
 }
 
 void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Margins& common, int panel,
@@ -167,7 +224,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
     const double x = frame.left + x_.fraction(value) * frame.width();
     if (x < frame.left - 0.01 || x > frame.right + 0.01) return;
     ticks.move({x, frame.bottom}).line({x, frame.bottom - length});
-    ticks.move({x, frame.top}).line({x, frame.top + length});
+    if (!top_) ticks.move({x, frame.top}).line({x, frame.top + length});
   };
   const auto y_tick = [&](double value, double length) {
     const double y = frame.bottom - y_.fraction(value) * frame.height();
@@ -185,6 +242,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
   list.stroke(outline.rectangle(frame), {look.hairline, {}, Cap::butt, Join::miter}, look.ink);
   boxes.push_back({Box::Kind::frame, frame, panel, ""});
   if (right_) draw_right(list, look, frame, panel, shrink, boxes);
+  if (top_) draw_top(list, look, frame, panel, shrink, boxes);
 
   const auto put = [&](Box::Kind kind, const TextBox& text, Point at, int turns, const std::string& source) {
     draw_text(list, text, at, look.ink, turns * std::numbers::pi / 2);
@@ -221,7 +279,7 @@ void Axes::draw(DisplayList& list, const Look& look, const Rect& frame, const Ma
           {frame.left - common.left + y_label_.ascent, frame.centre().y() + y_label_.width / 2}, 1,
           plot_.y.label);
     if (!y_factor_.empty())
-      put(Box::Kind::factor, y_factor_, {frame.left, frame.top - gap - y_factor_.descent}, 0,
+      put(Box::Kind::factor, y_factor_, {frame.left, frame.top - above_ - gap - y_factor_.descent}, 0,
           y_ticks_.factor);
   }
 }

@@ -32,6 +32,8 @@ class Axes {
 
   /// The axis on the right has this range; `color` is that of its ticks and texts, such as of its only series.
   void set_right(const Span& right, std::optional<Color> color) { right_ = right, right_color_ = color; }
+  /// The same of the axis above.
+  void set_top(const Span& top, std::optional<Color> color) { top_ = top, top_color_ = color; }
 
   /// Chooses ticks for a frame of this size and says what room they and the labels need around it.
   Margins fit(double width, double height);
@@ -44,6 +46,7 @@ class Axes {
   const Span& x() const { return x_; }
   const Span& y() const { return y_; }
   const std::optional<Span>& right() const { return right_; }
+  const std::optional<Span>& top() const { return top_; }
 
  private:
   const Plot& plot_;
@@ -62,7 +65,17 @@ class Axes {
   TextBox right_label_, right_factor_;
   std::vector<TextBox> right_texts_;
   double right_widest_ = 0;  ///< of its tick labels
+  std::optional<Span> top_;
+  std::optional<Color> top_color_;
+  Ticks top_ticks_;
+  TextBox top_label_, top_factor_;
+  std::vector<TextBox> top_texts_;
+  double top_ascent_ = 0, top_descent_ = 0;  ///< of its tick labels
+  double above_ = 0;                         ///< how far the axis above and its texts reach above the frame
 
+  void fit_top(double width, Margins& m);
+  void draw_top(DisplayList& list, const Look& look, const Rect& frame, int panel, double shrink,
+                std::vector<Box>& boxes) const;
   void fit_right(double height, Margins& m);
   void draw_right(DisplayList& list, const Look& look, const Rect& frame, int panel, double shrink,
                   std::vector<Box>& boxes) const;

@@ -34,7 +34,7 @@ Side side_of(Axis& axis, const std::vector<double>& values, std::size_t cells) {
 }
 
 bool is_crowd(const Panel& panel) {
-  return panel.series.size() == 1 && !panel.map && !panel.chains && !panel.right &&
+  return panel.series.size() == 1 && !panel.map && !panel.chains && !panel.right && !panel.top &&
          panel.series[0].kind == Kind::dots && panel.series[0].x.size() > most_dots &&
          panel.x.scale != Scale::log && panel.y.scale != Scale::log;
 }

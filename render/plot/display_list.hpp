@@ -89,14 +89,15 @@ using Item = std::variant<FillItem, StrokeItem, GlyphRun, DotsItem, PictureItem,
 /// Back ends do not look at it.
 struct Tag {
   enum class Kind {
-    marker,    ///< one point of a series
-    dots,      ///< a cloud
-    area,      ///< the cells of a series
-    curve,     ///< a line, an outline, a band's edge
-    beyond,    ///< an arrow at the frame for points outside
-    sample,    ///< of a legend
-    named,     ///< a name beside the curve itself
-    reference  ///< a line that is no data
+    marker,     ///< one point of a series
+    dots,       ///< a cloud
+    area,       ///< the cells of a series
+    curve,      ///< a line, an outline, a band's edge
+    beyond,     ///< an arrow at the frame for points outside
+    sample,     ///< of a legend
+    named,      ///< a name beside the curve itself
+    reference,  ///< a line that is no data
+    contour     ///< a line of equal value of a map; its series is the value
   };
   Kind kind = Kind::marker;
   int panel = 0;                    ///< counted from 0; -1: the whole figure's, or an inset's

@@ -35,11 +35,16 @@ void check_lengths(const Series& s) {
   if (!s.y_err.empty() && s.y_err.size() != s.x.size()) wrong("y_err");
 }
 
+const Axis& x_axis_of(const Plot& plot, const Series& s) { return s.top && plot.top ? *plot.top : plot.x; }
+const Axis& y_axis_of(const Plot& plot, const Series& s) {
+  return s.right && plot.right ? *plot.right : plot.y;
+}
+
 /// What the series asks of the axes; what a given range of either axis hides asks for nothing.
 void include_series(Extents& e, const Plot& plot, const Series& s) {
   const bool bins = has_bins(s.kind);
-  const Axis& along_y = s.right && plot.right ? *plot.right : plot.y;
-  Extent& ey = s.right && plot.right ? e.right : e.y;
+  const Axis &along_x = x_axis_of(plot, s), &along_y = y_axis_of(plot, s);
+  Extent &ex = s.top && plot.top ? e.top : e.x, &ey = s.right && plot.right ? e.right : e.y;
   const auto mark = has_markers(s.kind)    ? Extent::Mark::marker
                     : s.kind == Kind::dots ? Extent::Mark::dot
                                            : Extent::Mark::none;
@@ -53,16 +58,16 @@ void include_series(Extents& e, const Plot& plot, const Series& s) {
     extent.include(v + error, axis.scale);
   };
   for (std::size_t i = 0; i < s.x.size(); ++i) {
-    if (!shown(plot.x, s.x[i]) || !shown(along_y, s.y[i])) continue;
-    e.x.include(s.x[i], plot.x.scale, mark);
+    if (!shown(along_x, s.x[i]) || !shown(along_y, s.y[i])) continue;
+    ex.include(s.x[i], along_x.scale, mark);
     ey.include(s.y[i], along_y.scale, mark);
     if (s.kind == Kind::line || s.kind == Kind::dots || s.kind == Kind::cells) continue;
     include_error(ey, along_y, s.y[i], error_at(s.y_err, i));
-    if (!bins) include_error(e.x, plot.x, s.x[i], error_at(s.x_err, i));
+    if (!bins) include_error(ex, along_x, s.x[i], error_at(s.x_err, i));
   }
   if (bins) {
     ey.from_zero = along_y.scale == Scale::linear;
-    for (double edge : bin_edges(s.x)) e.x.include(edge, plot.x.scale);
+    for (double edge : bin_edges(s.x)) ex.include(edge, along_x.scale);
   }
 }
 
@@ -97,9 +102,8 @@ Extents extents_of(const Plot& plot) {
       Series near = s;  // its points alone: errors of what is in doubt stretch nothing
       near.x.clear(), near.y.clear(), near.x_err.clear(), near.y_err.clear();
       for (std::size_t i = 0; i < s.x.size(); ++i)
-        if (is_near(sure.x, plot.x, s.x[i]) &&
-            (s.right && plot.right ? is_near(sure.right, *plot.right, s.y[i])
-                                   : is_near(sure.y, plot.y, s.y[i])))
+        if (is_near(s.top && plot.top ? sure.top : sure.x, x_axis_of(plot, s), s.x[i]) &&
+            is_near(s.right && plot.right ? sure.right : sure.y, y_axis_of(plot, s), s.y[i]))
           near.x.push_back(s.x[i]), near.y.push_back(s.y[i]);
       include_series(e, plot, near);
     }

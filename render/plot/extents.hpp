@@ -21,7 +21,7 @@ std::vector<double> bin_edges(const std::vector<double>& x);
 
 /// What each axis must show of these series.
 struct Extents {
-  Extent x, y, right;
+  Extent x, y, right, top;
 };
 /// InputError if a series' columns differ in length.
 Extents extents_of(const Plot& plot);

@@ -44,6 +44,7 @@ struct Series {
   bool faint = false;                ///< its lines are only hinted at
   bool hollow = false;  ///< its markers are hollow and not joined: points that averages do not vouch for
   bool right = false;   ///< its y counts along the axis on the right
+  bool top = false;     ///< its x counts along the axis above
   // Automatic where absent: counted through the orders of style.hpp
   std::optional<int> color, marker, dash;
   std::optional<Color> ink;           ///< a colour of its own in place of one of those
@@ -99,6 +100,8 @@ struct Map {
   bool log = false;                 ///< values are decimal logarithms; the bar shows what they are of
   int contours = 0;                 ///< lines of equal value, evenly between the ends of the colours
   int filled = 0;  ///< so many bands of one colour each between lines of equal value, in place of cells
+  std::vector<double> levels;   ///< the values of such lines instead, ascending
+  bool values_on_lines = true;  ///< each has its value on it, where there is room
 };
 
 /// Lines through points, as thick as a number: a network of forces.
@@ -112,6 +115,7 @@ struct Plot {
   std::string title;
   Axis x, y;
   std::optional<Axis> right;  ///< of the series that say so; its ticks stand on the right
+  std::optional<Axis> top;    ///< of x, likewise above
   std::vector<Series> series;
   std::vector<Reference> references;
   std::vector<Region> regions;

@@ -141,6 +141,10 @@ class Builder {
     axis.max = own.max ? own.max : general.max;
     axis.names = own.names.empty() ? general.names : own.names;
     axis.times = times && axis.names.empty();
+    const auto from = own.from ? own.from : general.from, to = own.to ? own.to : general.to;
+    if ((from || to) && !axis.times) fail_recipe("from and to are of axes of dates: give min and max");
+    if (from) axis.min = from;
+    if (to) axis.max = to;
     if (axis.times && axis.scale == Scale::log) fail_recipe("dates have no logarithmic axis");
     if (axis.times && factor(general, own) != 1) fail_recipe("dates have no factor");
     return axis;
@@ -193,7 +197,8 @@ class Builder {
         if (own->color >= 0) s.color = own->color;
         if (own->marker >= 0) s.marker = own->marker;
         if (own->dash >= 0) s.dash = own->dash;
-        s.ink = own->ink, s.width = own->width, s.size = own->size, s.right = own->right;
+        s.ink = own->ink, s.width = own->width, s.size = own->size;
+        s.right = own->right, s.top = own->top;
       }
       if (const auto told = recipe_.labels.find(s.name); !s.label && told != recipe_.labels.end())
         s.label = told->second;
@@ -226,6 +231,7 @@ class Builder {
     map.label = wanted.label, map.low = wanted.low, map.high = wanted.high;
     map.diverging = wanted.diverging, map.contours = static_cast<int>(wanted.contours);
     map.filled = static_cast<int>(wanted.filled);
+    map.levels = wanted.levels, map.values_on_lines = wanted.contour_labels;
     for (const auto& [y, row] : of) map.x.insert(map.x.end(), row->x.begin(), row->x.end());
     std::sort(map.x.begin(), map.x.end());
     map.x.erase(std::unique(map.x.begin(), map.x.end()), map.x.end());
@@ -270,21 +276,42 @@ class Builder {
     return chains;
   }
 
-  /// A second axis of y, if the recipe has one or a series asks for it.
-  void make_right_axis(const PanelRecipe& p, Panel& panel) const {
-    const bool used = std::any_of(panel.series.begin(), panel.series.end(), [](auto& s) { return s.right; });
-    if (!used && p.right) fail_recipe("panel.right: no series of this panel has axis = \"right\"");
-    if (!used) return;
-    if (rows_.y_times) fail_recipe("right: dates have no second axis");
-    if (p.map) fail_recipe("right: the colour bar of the map stands there");
-    const AxisRecipe general = recipe_.right.value_or(AxisRecipe{}), own = p.right.value_or(AxisRecipe{});
-    panel.right = make_axis(general, own, false);
-    const double change = factor(general, own) / factor(recipe_.y, p.y);
+  /// A second axis of y or x, if the recipe has one or a series asks for it, and how much more its numbers are than those of the
+  /// first. `side` says which of the two.
+  std::optional<Axis> second_axis(const PanelRecipe& p, const Panel& panel, bool Series::*side,
+                                  std::optional<AxisRecipe> PlotRecipe::*of_all,
+                                  std::optional<AxisRecipe> PanelRecipe::*of_panel, double& more) const {
+    const bool is_right = side == &Series::right;
+    const std::string name = is_right ? "right" : "top", key = is_right ? "axis" : "x_axis";
+    const bool used = std::any_of(panel.series.begin(), panel.series.end(), [&](auto& s) { return s.*side; });
+    if (!used && p.*of_panel)
+      fail_recipe(fmt::format("panel.{}: no series of this panel has {} = \"{}\"", name, key, name));
+    if (!used) return {};
+    if (is_right ? rows_.y_times : rows_.x_times) fail_recipe(name + ": dates have no second axis");
+    if (p.map && is_right) fail_recipe("right: the colour bar of the map stands there");
+    if (p.map) fail_recipe("top: a map has one axis of x");
+    const AxisRecipe general = (recipe_.*of_all).value_or(AxisRecipe{}),
+                     own = (p.*of_panel).value_or(AxisRecipe{});
+    more = factor(general, own) / (is_right ? factor(recipe_.y, p.y) : factor(recipe_.x, p.x));
+    return make_axis(general, own, false);
+  }
+
+  void make_second_axes(const PanelRecipe& p, Panel& panel) const {
+    double more_y = 1, more_x = 1;
+    panel.right = second_axis(p, panel, &Series::right, &PlotRecipe::right, &PanelRecipe::right, more_y);
+    panel.top = second_axis(p, panel, &Series::top, &PlotRecipe::top, &PanelRecipe::top, more_x);
+    const auto scale = [](std::vector<double>& values, std::vector<double>& errors, double more) {
+      for (double& v : values) v *= more;
+      for (double& e : errors) e *= std::abs(more);
+    };
     for (auto& s : panel.series) {
-      if (!s.right) continue;
-      for (double& y : s.y) y *= change;
-      for (double& e : s.y_err) e *= std::abs(change);
-      if (!s.label) s.label = label_from_name(s.name) + " (right)";
+      if (s.right) scale(s.y, s.y_err, more_y);
+      if (s.top) scale(s.x, s.x_err, more_x);
+      if ((s.right || s.top) && !s.label)
+        s.label = fmt::format("{} ({})", label_from_name(s.name),
+                              !s.top     ? "right"
+                              : !s.right ? "top"
+                                         : "right, top");
     }
   }
 
@@ -295,7 +322,7 @@ class Builder {
     panel.x = make_axis(recipe_.x, p.x, rows_.x_times), panel.y = make_axis(recipe_.y, p.y, rows_.y_times);
     panel.references = p.references, panel.regions = p.regions, panel.notes = p.notes;
     panel.series = make_series(p.label, {}, factor(recipe_.x, p.x), factor(recipe_.y, p.y));
-    make_right_axis(p, panel);
+    make_second_axes(p, panel);
     if (p.chains) panel.chains = make_chains(p, panel.series);
     // Maps and phase diagrams fill their frames.
     const auto tight = [](Axis& axis, const std::vector<double>& edges) {
@@ -317,7 +344,7 @@ class Builder {
       inset.width = i.width, inset.height = i.height, inset.place = i.place;
       inset.plot.x = make_axis({}, i.x, rows_.x_times), inset.plot.y = make_axis({}, i.y, rows_.y_times);
       inset.plot.series = make_series(i.panel.value_or(p.label), i.series, factor({}, i.x), factor({}, i.y));
-      for (auto& s : inset.plot.series) s.right = false;
+      for (auto& s : inset.plot.series) s.right = s.top = false;
     }
     return panel;
   }

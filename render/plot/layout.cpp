@@ -110,10 +110,12 @@ class Layouter {
     for (std::size_t i = 0; i < panels.size(); ++i) {
       Extent ex = extents[i].x, ey = extents[i].y;
       double headroom = headroom_[i];
-      Extent eright = extents[i].right;
+      Extent eright = extents[i].right, etop = extents[i].top;
       for (std::size_t k = 0; k < panels.size(); ++k) {
         if (panels[i].right && panels[k].right && is_same(*panels[i].right, *panels[k].right))
           eright.include(extents[k].right);
+        if (panels[i].top && panels[k].top && is_same(*panels[i].top, *panels[k].top))
+          etop.include(extents[k].top);
         if ((figure_.share_x && column(k) == column(i)) || is_same(panels[i].x, panels[k].x))
           ex.include(extents[k].x);
         if ((figure_.share_y && row(k) == row(i)) || is_same(panels[i].y, panels[k].y))
@@ -123,18 +125,20 @@ class Layouter {
       raise(y, headroom);
       const bool show_x = !figure_.share_x || !has_below(i), show_y = !figure_.share_y || column(i) == 0;
       axes_.push_back(std::make_unique<Axes>(panels[i], span_of(panels[i].x, ex), y, sizes_, show_x, show_y));
+      if (panels[i].top)
+        axes_.back()->set_top(span_of(*panels[i].top, etop), color_of(panels[i], &Series::top));
       if (!panels[i].right) continue;
       Span right = span_of(*panels[i].right, eright);
       raise(right, headroom);
-      axes_.back()->set_right(right, color_of_right(panels[i]));
+      axes_.back()->set_right(right, color_of(panels[i], &Series::right));
     }
   }
 
-  /// The axis on the right has the colour of its series, if that is one colour.
-  std::optional<Color> color_of_right(const Panel& panel) const {
+  /// A second axis has the colour of its series, if that is one colour.
+  std::optional<Color> color_of(const Panel& panel, bool Series::*is_there) const {
     std::optional<Color> color;
     for (const auto& s : panel.series) {
-      if (!s.right) continue;
+      if (!(s.*is_there)) continue;
       const Color own = looks_.at(s.name).color;
       if (color && (own.r != color->r || own.g != color->g || own.b != color->b)) return {};
       color = own;
@@ -143,7 +147,7 @@ class Layouter {
   }
 
   Frame frame_of(std::size_t i) const {
-    return {frames_[i], axes_[i]->x(), axes_[i]->y(), axes_[i]->right()};
+    return {frames_[i], axes_[i]->x(), axes_[i]->y(), axes_[i]->right(), axes_[i]->top()};
   }
 
   /// Series of a panel, or of all (-1); those in insets too.
@@ -197,7 +201,7 @@ class Layouter {
       fill_block(plan.block, static_cast<int>(i), !has_names(i));
       bool asked = place != Place::automatic;
       for (const auto& s : panels[i].series)
-        asked = asked || (s.label && !s.label->empty()) || s.kind == Kind::cells || s.right;
+        asked = asked || (s.label && !s.label->empty()) || s.kind == Kind::cells || s.right || s.top;
       if (plan.block.count() > (asked ? 0 : 1)) legends_.push_back(std::move(plan));
     }
   }
@@ -368,8 +372,9 @@ class Layouter {
       Painter painter{out.list, look_, occupied.emplace_back(frames_[i]), static_cast<int>(i),
                       figure_.panels[i].map || !cell_grid(figure_.panels[i]).empty()};
       draw_marks(painter, frame, figure_.panels[i], looks_);
-      for (const Rect& text : occupied.back().texts())
-        out.boxes.push_back({Box::Kind::note, text, static_cast<int>(i), ""});
+      for (const auto& text : occupied.back().texts())
+        out.boxes.push_back({text.contour.empty() ? Box::Kind::note : Box::Kind::value, text.rect,
+                             static_cast<int>(i), text.contour});
       Margins common;
       common.left = column_margins_[static_cast<std::size_t>(column(i))].left;
       common.right = column_margins_[static_cast<std::size_t>(column(i))].right;

@@ -19,8 +19,9 @@ struct Box {
     legend,
     inset,
     note,
-    name
-  };  ///< name: at a curve
+    name,
+    value
+  };  ///< name: at a curve; value: on a contour
   Kind kind;
   Rect rect;  ///< page, points
   int panel;  ///< counted from 0; -1: the whole figure's

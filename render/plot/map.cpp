@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "plot/axes.hpp"
+#include "plot/level_lines.hpp"
 
 namespace chute::plot {
 namespace {
@@ -54,116 +55,6 @@ struct Bar {
   }
 };
 
-/// Where the value crosses `level` between neighbouring middles: the pieces of a contour (marching squares).
-Path contour(const Map& map, const Frame& frame, double level) {
-  Path path;
-  const std::size_t nx = map.x.size(), ny = map.y.size();
-  const auto z = [&](std::size_t i, std::size_t j) { return map.values[j * nx + i] - level; };
-  for (std::size_t j = 0; j + 1 < ny; ++j)
-    for (std::size_t i = 0; i + 1 < nx; ++i) {
-      const std::array<std::array<std::size_t, 2>, 4> corner{
-          {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
-      std::array<double, 4> h;
-      for (std::size_t c = 0; c < 4; ++c) h[c] = z(corner[c][0], corner[c][1]);
-      if (std::any_of(h.begin(), h.end(), [](double v) { return std::isnan(v); })) continue;
-      std::vector<Point> cuts;
-      for (std::size_t c = 0; c < 4; ++c) {
-        const std::size_t d = (c + 1) % 4;
-        if ((h[c] > 0) == (h[d] > 0)) continue;
-        const double t = h[c] / (h[c] - h[d]);
-        cuts.push_back(frame.at(map.x[corner[c][0]] + t * (map.x[corner[d][0]] - map.x[corner[c][0]]),
-                                map.y[corner[c][1]] + t * (map.y[corner[d][1]] - map.y[corner[c][1]])));
-      }
-      for (std::size_t k = 0; k + 1 < cuts.size(); k += 2) path.move(cuts[k]).line(cuts[k + 1]);
-    }
-  return path;
-}
-
-/// The values between middles of cells: four middles and their mean make four triangles, on each of which the value is linear.
-class Bands {
- public:
-  Bands(const Map& map, const Frame& frame) : map_(map), frame_(frame) {}
-
-  /// Where the value is at least `level`.
-  Path above(double level) const {
-    Path path;
-    const std::size_t nx = map_.x.size(), ny = map_.y.size();
-    for (std::size_t j = 0; j + 1 < ny; ++j)
-      for (std::size_t i = 0; i + 1 < nx; ++i) {
-        if (is_above(i, j, level)) {  // whole cells in a row are one rectangle
-          const std::size_t first = i;
-          while (i + 2 < nx && is_above(i + 1, j, level)) ++i;
-          const auto a = at(first, j), b = at(i + 1, j + 1);
-          path.move(a.at).line({b.at.x(), a.at.y()}).line(b.at).line({a.at.x(), b.at.y()}).close();
-          continue;
-        }
-        each_triangle(i, j, [&](const Triangle& corners) { add_part(path, corners, level); });
-      }
-    return path;
-  }
-
-  /// Where the value is `level`.
-  Path line(double level) const {
-    Path path;
-    for (std::size_t j = 0; j + 1 < map_.y.size(); ++j)
-      for (std::size_t i = 0; i + 1 < map_.x.size(); ++i)
-        each_triangle(i, j, [&](const Triangle& corners) {
-          std::vector<Point> cuts;
-          for (std::size_t c = 0; c < 3; ++c)
-            if (const auto& p = corners[c], &q = corners[(c + 1) % 3];
-                (p.value >= level) != (q.value >= level))
-              cuts.push_back(cut(p, q, level));
-          if (cuts.size() == 2) path.move(cuts[0]).line(cuts[1]);
-        });
-    return path;
-  }
-
- private:
-  struct Corner {
-    Point at{0, 0};
-    double value = 0;
-  };
-  using Triangle = std::array<Corner, 3>;
-  const Map& map_;
-  const Frame& frame_;
-
-  Corner at(std::size_t i, std::size_t j) const {
-    return {frame_.at(map_.x[i], map_.y[j]), map_.values[j * map_.x.size() + i]};
-  }
-  static Point cut(const Corner& p, const Corner& q, double level) {
-    return p.at + (level - p.value) / (q.value - p.value) * (q.at - p.at);
-  }
-  std::array<Corner, 4> corners_of(std::size_t i, std::size_t j) const {
-    return {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-  }
-  bool is_above(std::size_t i, std::size_t j, double level) const {
-    const auto corners = corners_of(i, j);
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](const Corner& c) { return std::isfinite(c.value) && c.value >= level; });
-  }
-
-  /// Nothing where a value is not known.
-  template <class Do>
-  void each_triangle(std::size_t i, std::size_t j, Do&& act) const {
-    const auto corners = corners_of(i, j);
-    Corner middle;
-    for (const auto& c : corners) middle.at += 0.25 * c.at, middle.value += 0.25 * c.value;
-    if (!std::isfinite(middle.value)) return;
-    for (std::size_t c = 0; c < 4; ++c) act(Triangle{corners[c], corners[(c + 1) % 4], middle});
-  }
-
-  static void add_part(Path& path, const Triangle& corners, double level) {
-    std::vector<Point> part;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto &p = corners[c], &q = corners[(c + 1) % 3];
-      if (p.value >= level) part.push_back(p.at);
-      if ((p.value >= level) != (q.value >= level)) part.push_back(cut(p, q, level));
-    }
-    for (std::size_t k = 0; k < part.size(); ++k) k ? path.line(part[k]) : path.move(part[k]);
-    if (!part.empty()) path.close();
-  }
-};
-
 }  // namespace
 
 Color map_color(double t, bool diverging) {
@@ -202,8 +93,8 @@ std::vector<double> cell_edges(const std::vector<double>& middles, Scale scale) 
   return edges;
 }
 
-void draw_map(DisplayList& list, const Look& look, const Frame& frame, const Map& map) {
-  if (map.filled > 0) return draw_bands(list, look, frame, map);
+void draw_map(DisplayList& list, const Frame& frame, const Map& map) {
+  if (map.filled > 0) return draw_bands(list, frame, map);
   const auto range = range_of(map);
   const auto ex = cell_edges(map.x, frame.x.scale), ey = cell_edges(map.y, frame.y.scale);
   // Cells of one colour are one path: rectangles along a row that have it are joined.
@@ -228,24 +119,17 @@ void draw_map(DisplayList& list, const Look& look, const Frame& frame, const Map
   for (int l = 0; l < levels; ++l)
     if (auto& path = of_level[static_cast<std::size_t>(l)]; !path.empty())
       list.fill(std::move(path), map_color((l + 0.5) / levels, map.diverging));
-  for (int c = 1; c <= map.contours; ++c) {
-    auto path = contour(map, frame, range.low + (range.high - range.low) * c / (map.contours + 1));
-    if (!path.empty()) list.stroke(std::move(path), {look.hairline, {}, Cap::round, Join::round}, look.paper);
-  }
 }
 
-void draw_bands(DisplayList& list, const Look& look, const Frame& frame, const Map& map) {
+void draw_bands(DisplayList& list, const Frame& frame, const Map& map) {
   const auto range = range_of(map);
-  const auto level_at = [&](int k, int count) { return range.low + (range.high - range.low) * k / count; };
   // Each band lies on those below it, so that no seam shows between them.
   for (int k = 0; k < map.filled; ++k) {
-    const double level = k == 0 ? -std::numeric_limits<double>::infinity() : level_at(k, map.filled);
-    if (auto path = Bands(map, frame).above(level); !path.empty())
+    const double level = k == 0 ? -std::numeric_limits<double>::infinity()
+                                : range.low + (range.high - range.low) * k / map.filled;
+    if (auto path = area_above(map, frame, level); !path.empty())
       list.fill(std::move(path), map_color((k + 0.5) / map.filled, map.diverging));
   }
-  for (int c = 1; c <= map.contours; ++c)
-    if (auto path = Bands(map, frame).line(level_at(c, map.contours + 1)); !path.empty())
-      list.stroke(std::move(path), {look.hairline, {}, Cap::round, Join::round}, look.paper);
 }
 
 double bar_width(const Look& look, const Map& map, double height) {

@@ -20,11 +20,11 @@ MapRange range_of(const Map& map);
 /// Edges of cells along an axis, halfway between their middles as the axis shows them.
 std::vector<double> cell_edges(const std::vector<double>& middles, Scale scale = Scale::linear);
 
-/// The cells, and contours where asked for, inside the frame.
-void draw_map(DisplayList& list, const Look& look, const Frame& frame, const Map& map);
+/// The cells, inside the frame. Contours are drawn beside them (contours.hpp).
+void draw_map(DisplayList& list, const Frame& frame, const Map& map);
 
 /// The same as bands between lines of equal value: what draw_map does where `filled` asks for it.
-void draw_bands(DisplayList& list, const Look& look, const Frame& frame, const Map& map);
+void draw_bands(DisplayList& list, const Frame& frame, const Map& map);
 
 /// How far the colour bar of a map reaches out to the right of its frame, whose height is given.
 double bar_width(const Look& look, const Map& map, double height);

@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "plot/cells.hpp"
+#include "plot/contours.hpp"
 #include "plot/extents.hpp"
 #include "plot/map.hpp"
 #include "plot/polyline.hpp"
@@ -293,11 +294,31 @@ class SeriesPainter {
 
 }  // namespace
 
+namespace {
+
+/// What all but the map covers: values on its contours keep off that, although they are drawn before.
+Occupancy covered_beside_map(const Painter& painter, const Frame& frame, const Plot& plot,
+                             const std::map<std::string, SeriesLook>& looks) {
+  Plot rest = plot;
+  rest.map.reset();
+  DisplayList nowhere;
+  Occupancy covered(frame.rect);
+  Painter trial{nowhere, painter.look, covered, painter.panel, painter.over_map};
+  draw_marks(trial, frame, rest, looks);
+  return covered;
+}
+
+}  // namespace
+
 void draw_marks(Painter& painter, const Frame& frame, const Plot& plot,
                 const std::map<std::string, SeriesLook>& looks) {
   painter.list.items.emplace_back(ClipBegin{frame.rect});
-  if (plot.map) draw_map(painter.list, painter.look, frame, *plot.map);
+  if (plot.map) draw_map(painter.list, frame, *plot.map);
   draw_cells(painter, frame, plot, cell_grid(plot), looks);
+  if (plot.map && (plot.map->contours > 0 || !plot.map->levels.empty()))
+    draw_contours(
+        painter, frame,
+        contours_of(*plot.map, frame, painter.look, covered_beside_map(painter, frame, plot, looks)));
   if (plot.map && plot.map->log) mark_crowd(painter.occupied, frame, *plot.map);
   for (const auto& region : plot.regions) draw_region(painter, frame, plot, region);
   for (const auto& reference : plot.references) draw_reference(painter, frame, reference);

@@ -16,7 +16,7 @@ namespace chute::plot {
 struct Frame {
   Rect rect;
   Span x, y;
-  std::optional<Span> right{};  ///< of the series that count along the axis on the right
+  std::optional<Span> right{}, top{};  ///< of the series that count along the axis on the right, and above
 
   /// NaN where an axis cannot show the value.
   Point at(double px, double py) const {
@@ -24,7 +24,7 @@ struct Frame {
   }
   /// The frame as this series' points count in it.
   Frame of(const Series& series) const {
-    return series.right && right ? Frame{rect, x, *right, {}} : Frame{rect, x, y, {}};
+    return {rect, series.top && top ? *top : x, series.right && right ? *right : y};
   }
 };
 

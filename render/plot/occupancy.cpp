@@ -39,14 +39,14 @@ void Occupancy::mark_segment(Point a, Point b, double width) {
   }
 }
 
-void Occupancy::mark_text(const Rect& rect) {
+void Occupancy::mark_text(const Rect& rect, const std::string& contour) {
   mark(rect);
-  texts_.push_back(rect);
+  texts_.push_back({rect, contour});
 }
 
 bool Occupancy::clear_of_texts(const Rect& rect) const {
   return frame_.contains(rect) &&
-         std::none_of(texts_.begin(), texts_.end(), [&](const Rect& t) { return t.overlaps(rect); });
+         std::none_of(texts_.begin(), texts_.end(), [&](const Text& t) { return t.rect.overlaps(rect); });
 }
 
 std::optional<Point> Occupancy::beside_texts(double width, double height, double inset, Place wanted) const {

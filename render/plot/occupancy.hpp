@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "plot/figure.hpp"
@@ -14,9 +15,13 @@ class Occupancy {
 
   void mark(const Rect& rect);
   void mark_segment(Point a, Point b, double width);
-  /// A text, legend or inset: others may cover ink if they must, but never these.
-  void mark_text(const Rect& rect);
-  const std::vector<Rect>& texts() const { return texts_; }
+  /// A text, legend or inset: others may cover ink if they must, but never these. `contour`: the value that it is of one.
+  void mark_text(const Rect& rect, const std::string& contour = "");
+  struct Text {
+    Rect rect;
+    std::string contour;  ///< empty: another text
+  };
+  const std::vector<Text>& texts() const { return texts_; }
   /// Inside the frame and over no text.
   bool clear_of_texts(const Rect& rect) const;
   /// Share of the cells under `rect` that hold ink, 0 to 1; 1 if it leaves the frame.
@@ -40,7 +45,7 @@ class Occupancy {
   Rect frame_;
   int columns_, rows_;
   std::vector<int> cells_;  // 1: ink
-  std::vector<Rect> texts_;
+  std::vector<Text> texts_;
   mutable std::vector<int> summed_;  // of the cells above and to the left; empty: to be made
 
   static constexpr double cell = 2;

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 
 #include "common/error.hpp"
 #include "common/keys.hpp"
 #include "plot/draw.hpp"
 #include "plot/fonts.hpp"
 #include "plot/mathtext.hpp"
+#include "read/iso_time.hpp"
 
 namespace chute::plot {
 namespace {
@@ -25,6 +27,7 @@ constexpr std::array kind_words{"automatic"sv, "line"sv, "markers"sv, "both"sv, 
 constexpr std::array place_words{"automatic"sv,    "top-left"sv, "top-right"sv, "bottom-left"sv,
                                  "bottom-right"sv, "top"sv,      "off"sv,       "direct"sv};
 constexpr std::array side_words{"left"sv, "right"sv};
+constexpr std::array end_words{"bottom"sv, "top"sv};
 constexpr std::array scale_words{"automatic"sv, "linear"sv, "log"sv};
 constexpr std::array reference_words{"diagonal"sv, "horizontal"sv, "vertical"sv};
 constexpr std::array color_words{"automatic"sv, "blue"sv, "vermillion"sv, "green"sv, "purple"sv,
@@ -37,6 +40,7 @@ constexpr std::array dash_words{"automatic"sv, "solid"sv, "dashed"sv,      "dott
 enum class Width { single_column, double_column };
 enum class Share { automatic, none, x, y, both };
 enum class YAxis { left, right };
+enum class XAxis { bottom, top };
 enum class Ordinal : int {};
 
 /// A slip in a text names its line.
@@ -149,6 +153,21 @@ void read_series_color(KeyLister& a, SeriesRecipe& series, const char* words) {
   read_ordinal(a, "color", series.color, color_words, words);
 }
 
+void read_date(TomlReader& a, std::string_view key, std::optional<double>& target, const char* words) {
+  std::optional<std::string> text;
+  a.value(key, text, words);
+  if (!text) return;
+  target = read::iso_time(*text);
+  a.check(
+      target.has_value(), key,
+      fmt::format(
+          "\"{}\" is no date: write \"2026-03-07\", \"2026-03-07T14:05:09\" or with a zone, +01:00, behind it",
+          *text));
+}
+void read_date(KeyLister& a, std::string_view key, std::optional<double>&, const char* words) {
+  a.value(key, std::optional<std::string>(), words);
+}
+
 }  // namespace
 
 template <class Archive>
@@ -161,6 +180,11 @@ static void describe(Archive& a, AxisRecipe& axis) {
   a.check(
       axis.scale != AxisRecipe::Scale::log || ((!axis.min || *axis.min > 0) && (!axis.max || *axis.max > 0)),
       "scale", "a log axis has min and max > 0");
+  read_date(a, "from", axis.from, "a date in place of min, \"2026-03-07\" or \"2026-03-07T14:05\"");
+  read_date(a, "to", axis.to, "a date in place of max");
+  a.check(!(axis.min && axis.from) && !(axis.max && axis.to), "from",
+          "give from or min, to or max, not both");
+  a.check(!axis.from || !axis.to || *axis.from < *axis.to, "from", "must be before to");
   a.value("factor", axis.factor, "times the data: 100 from m to cm");
   a.value("names", axis.names, "labels of 1, 2 … in place of numbers");
   a.check(axis.names.empty() || axis.scale != AxisRecipe::Scale::log, "names", "not on a log axis");
@@ -221,7 +245,13 @@ static void describe(Archive& a, MapRecipe& map) {
   a.value("low", map.low, "of the colours; default from the data");
   a.value("high", map.high, "of the colours; default from the data");
   a.value("diverging", map.diverging, "white is 0");
-  a.value("contours", map.contours, between(0, 50), "lines of equal value");
+  a.value("contours", map.contours, between(0, 50), "lines of equal value, evenly between low and high");
+  a.value("levels", map.levels, "the values of such lines instead, ascending");
+  a.check(map.contours == 0 || map.levels.empty(), "levels", "give contours or levels, not both");
+  a.check(
+      std::adjacent_find(map.levels.begin(), map.levels.end(), std::greater_equal<>()) == map.levels.end(),
+      "levels", "must ascend");
+  a.value("contour_labels", map.contour_labels, "lines have their values on them, where there is room");
   a.value("filled", map.filled, between(0, 50),
           "so many bands of one colour each between lines of equal value, in place of cells");
 }
@@ -242,6 +272,7 @@ static void describe(Archive& a, PanelRecipe& panel) {
   a.section("x", panel.x);
   a.section("y", panel.y);
   a.section("right", panel.right);
+  a.section("top", panel.top);
   a.choice("legend", panel.legend, place_words, "top: above the frame");
   a.sections("reference", panel.references);
   a.sections("region", panel.regions);
@@ -273,6 +304,9 @@ static void describe(Archive& a, SeriesRecipe& series) {
   YAxis side = YAxis::left;
   a.choice("axis", side, side_words, "along which its y counts; right: that of [plot.right]");
   series.right = side == YAxis::right;
+  XAxis end = XAxis::bottom;
+  a.choice("x_axis", end, end_words, "along which its x counts; top: that of [plot.top]");
+  series.top = end == XAxis::top;
 }
 
 template <class Archive>
@@ -308,6 +342,7 @@ static void describe_keys(Archive& a, PlotRecipe& recipe) {
   a.section("x", recipe.x);
   a.section("y", recipe.y);
   a.section("right", recipe.right);
+  a.section("top", recipe.top);
   a.sections("panel", recipe.panels);
   a.sections("series", recipe.series);
   a.sections("word", recipe.words);

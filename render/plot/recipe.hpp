@@ -31,12 +31,14 @@ class KeyLister;
 ///     x = { … }                 # axes of all panels, see below
 ///     y = { … }
 ///     right = { … }             # a second axis of y, for series with axis = "right"
+///     top = { … }               # and of x, for series with x_axis = "top"
 ///
 ///     # an axis
 ///     label = "$h$ ($d$)"       # with its unit
 ///     scale = "linear"          # linear | log
 ///     min = 0                   # default: from the data; so is max
 ///     max = 16
+///     from = "2026-03-07"       # in place of min, on an axis of dates; so is to
 ///     factor = 100              # times the data: from m to cm
 ///     names = ["a", "b"]        # labels of 1, 2 … in place of numbers; series then stand side by side
 ///
@@ -45,7 +47,7 @@ class KeyLister;
 ///     tag = "a"                 # what stands in the picture for the label, (a); "" for nothing
 ///     title = "$\\epsilon=0$"    # after the tag, above the frame
 ///     parameters = "$\\mu=0$"    # after that: what was held fixed; default what the table tells (parameters.hpp)
-///     x = { … }                 # replaces what [plot] says, key by key; so do y and right
+///     x = { … }                 # replaces what [plot] says, key by key; so do y, right and top
 ///     y = { … }
 ///     legend = "automatic"      # automatic | top-left | top-right | bottom-left | bottom-right | top (above the frame) | off
 ///                               # | direct (names at the curves)
@@ -54,9 +56,10 @@ class KeyLister;
 ///                               # shaded (0 to 3) within the ranges and between the curves that are named
 ///     note = [{ text = "B", x = 2.2, y = 0.17, fraction = false }]   # its middle; fraction: of the frame, from its lower left;
 ///                               # arrow = [2, 0.1]: to what it is about; color, size
-///     map = { series = "density t=*", label = "$\\rho$", low = 0, high = 1, diverging = false, contours = 0, filled = 0 }
+///     map = { series = "density t=*", label = "$\\rho$", low = 0, high = 1, diverging = false, contours = 0, levels = [],
+///                               # contour_labels = true, filled = 0 }
 ///                               # colours: each series that matches is a row, whose place along y follows its name's last =;
-///                               # contours: lines of equal value; filled: bands between such lines in place of cells
+///                               # contours: lines of equal value, so many or at these levels; filled: bands between such lines in place of cells
 ///     chains = { places = "network", branches = "branch", weights = "force" }
 ///                               # a line through each row of `places`, along that row of `branches` (x, y: from end to end),
 ///                               # as thick as that of `weights` (y)
@@ -79,6 +82,7 @@ class KeyLister;
 ///     dash = "automatic"        # solid dashed dotted dash-dot long dash-dot-dot
 ///     width = 1.1               # of its line, in points; size: of its markers
 ///     axis = "left"             # or right
+///     x_axis = "bottom"         # or top
 ///
 ///     [style]                   # or style = "FILE.toml" at the top of the recipe, a file with these keys, relative to it
 ///     colors = ["#c00000"]      # of series, in the order in which they come
@@ -94,6 +98,7 @@ struct AxisRecipe {
   std::optional<std::string> label;
   enum class Scale { automatic, linear, log } scale = Scale::automatic;
   std::optional<double> min, max, factor;
+  std::optional<double> from, to;  ///< dates, in place of min and max
   std::vector<std::string> names;
 };
 
@@ -107,7 +112,7 @@ struct SeriesRecipe {
   KindChoice kind = KindChoice::automatic;
   int color = -1, marker = -1, dash = -1;  ///< -1: automatic
   std::optional<Color> ink;                ///< color = "#c00000"
-  bool right = false;                      ///< axis = "right"
+  bool right = false, top = false;         ///< axis = "right", x_axis = "top"
   std::optional<double> width, size;       ///< points
 };
 
@@ -124,6 +129,8 @@ struct MapRecipe {
   std::optional<double> low, high;
   bool diverging = false;
   std::int64_t contours = 0, filled = 0;
+  std::vector<double> levels;
+  bool contour_labels = true;
 };
 
 struct ChainsRecipe {
@@ -139,7 +146,7 @@ struct PanelRecipe {
   std::optional<std::string> tag;  ///< stands for the label in the picture
   std::optional<std::string> parameters;
   AxisRecipe x, y;
-  std::optional<AxisRecipe> right;
+  std::optional<AxisRecipe> right, top;
   Place legend = Place::automatic;
   std::vector<Reference> references;
   std::vector<Region> regions;
@@ -164,7 +171,7 @@ struct PlotRecipe {
   Legend legend = Legend::automatic;
   KindChoice kind = KindChoice::automatic;
   AxisRecipe x, y;
-  std::optional<AxisRecipe> right;
+  std::optional<AxisRecipe> right, top;
   std::vector<PanelRecipe> panels;
   std::vector<SeriesRecipe> series;
   std::vector<WordRecipe> words;

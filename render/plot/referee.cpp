@@ -17,12 +17,13 @@ using Fault = Finding::Kind;
 
 bool stands_inside(Box::Kind kind) {
   return kind == Box::Kind::legend || kind == Box::Kind::panel_label || kind == Box::Kind::inset ||
-         kind == Box::Kind::note || kind == Box::Kind::name;
+         kind == Box::Kind::note || kind == Box::Kind::name || kind == Box::Kind::value;
 }
 
 const char* name(Box::Kind kind) {
-  static const char* names[] = {"frame",       "tick label", "axis label", "factor", "title",
-                                "panel label", "legend",     "inset",      "note",   "name at a curve"};
+  static const char* names[] = {
+      "frame", "tick label",      "axis label",        "factor", "title", "panel label", "legend", "inset",
+      "note",  "name at a curve", "value of a contour"};
   return names[static_cast<int>(kind)];
 }
 
@@ -106,6 +107,8 @@ class Referee {
       const bool large = text.kind == Box::Kind::legend || text.kind == Box::Kind::inset;
       if (tag.kind == Tag::Kind::reference && large && crosses(tag, text.rect))
         return add(Fault::text_on_data, tag.panel, told(text) + " covers a line " + tag.series);
+      if (tag.kind == Tag::Kind::contour && text.kind == Box::Kind::value && crosses(tag, text.rect))
+        return add(Fault::text_on_data, tag.panel, told(text) + " covers the contour of " + tag.series);
       if (tag.kind == Tag::Kind::curve && crosses(tag, text.rect))
         return add(Fault::text_on_data, tag.panel, told(text) + " covers the curve of " + tag.series);
     }
@@ -198,7 +201,7 @@ class Referee {
     std::map<std::string, Drawn> all;
     for (const auto& tag : layout_.list.tags) {
       if (tag.panel != panel || tag.kind == Tag::Kind::sample || tag.kind == Tag::Kind::named ||
-          tag.kind == Tag::Kind::beyond || tag.kind == Tag::Kind::reference)
+          tag.kind == Tag::Kind::beyond || tag.kind == Tag::Kind::reference || tag.kind == Tag::Kind::contour)
         continue;
       auto& drawn = all[tag.series];
       const Point middle = bounds(tag).centre();

@@ -347,6 +347,26 @@ class Ruler {
 
 }  // namespace
 
+namespace {
+
+/// Dates and limits are of the calendar; the room beside them ends with it.
+void keep_in_calendar(const Axis& axis, const Extent& data, Span& span) {
+  const auto [first, last] = calendar();
+  const auto is_in = [&](double v) { return v >= first && v <= last; };
+  const auto wrong = [&](const std::string& what) {
+    throw InputError(
+        fmt::format("axis \"{}\": {}: axes of dates go from the year 1 to the year 9999", axis.label, what));
+  };
+  for (const auto& limit : {axis.min, axis.max})
+    if (limit && !is_in(*limit))
+      wrong(fmt::format("the limit {} (in seconds since 1970; dates: from, to)", *limit));
+  if (data.low <= data.high && !(is_in(data.low) && is_in(data.high)))
+    wrong("there are earlier or later dates");
+  span.low = std::clamp(span.low, first, last - 1), span.high = std::clamp(span.high, span.low + 1, last);
+}
+
+}  // namespace
+
 Span span_of(const Axis& axis, const Extent& extent) {
   const auto wrong = [&](const std::string& what) {
     throw InputError(fmt::format("axis \"{}\": {}", axis.label, what));
@@ -373,9 +393,39 @@ Span span_of(const Axis& axis, const Extent& extent) {
     data.low = axis.scale == Scale::log ? std::max(*axis.max / 10, least)
                                         : held(*axis.max - std::max(1.0, 0.1 * std::abs(*axis.max)));
   Span span = axis.scale == Scale::linear ? padded_linear(axis, data) : padded_log(axis, data);
+  if (axis.times && axis.scale == Scale::linear) keep_in_calendar(axis, extent, span);
   if (axis.min) span.low_limit = *axis.min;
   if (axis.max) span.high_limit = *axis.max;
   return span;
+}
+
+std::vector<std::string> value_texts(const std::vector<double>& values) {
+  constexpr double share = 0.02;  // of the distance to the next value that a text may be off
+  double largest = 0, distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    largest = std::max(largest, std::abs(values[i]));
+    for (std::size_t k = 0; k < i; ++k)
+      if (values[k] != values[i]) distance = std::min(distance, std::abs(values[i] - values[k]));
+  }
+  if (!(largest > 0)) return std::vector<std::string>(values.size(), "$0$");
+  distance = std::min(distance, largest);
+  const auto rounded = [](double value, int digit) {
+    return times_ten(std::round(times_ten(value, -digit)), digit);
+  };
+  const auto is_told = [&](double v, int digit) {
+    return std::abs(rounded(v, digit) - v) <= share * distance;
+  };
+  int last = std::max(0, decade_of(distance));
+  while (last > decade_of(distance) - most_digits &&
+         !std::all_of(values.begin(), values.end(), [&](double v) { return is_told(v, last); }))
+    --last;
+  std::vector<double> told;
+  for (const double v : values) told.push_back(rounded(v, last));
+  const auto labels = label(told, last);
+  if (labels.factor.empty()) return labels.texts;
+  std::vector<std::string> texts;
+  for (const double v : told) texts.push_back("$" + full(v) + "$");
+  return texts;
 }
 
 Ticks ticks_for(const Span& span, double length, double size, bool horizontal) {

@@ -50,6 +50,10 @@ struct Ticks {
   std::string factor;  ///< "$\\times10^{-3}$" where the labels are to be multiplied by it, else empty
 };
 
+/// Numbers as texts, with as many decimals as tell them apart to some percent of their distances; over powers of ten where they
+/// are large or tiny.
+std::vector<std::string> value_texts(const std::vector<double>& values);
+
 /// Ticks for an axis `length` points long. Labels (set at `size` points) neither touch nor crowd: along x
 /// their widths count, along y their heights. One axis, one number of decimals.
 Ticks ticks_for(const Span& span, double length, double size, bool horizontal);

@@ -168,9 +168,11 @@ bool fits(const Ticks& ticks, const Span& span, double length, double size, bool
 
 }  // namespace
 
+Calendar calendar() { return {month_begin(year), month_begin(10'000 * year) - 1}; }
+
 std::optional<Ticks> time_ticks(const Span& span, double length, double size, bool horizontal) {
-  const double first = month_begin(year), last = month_begin(10'000 * year);
-  if (!(span.low >= first && span.high < last && span.high - span.low >= shortest)) return {};
+  const auto [first, last] = calendar();
+  if (!(span.low >= first && span.high <= last && span.high - span.low >= shortest)) return {};
   std::optional<Ticks> few;
   for (const Step& step : steps) {
     Ticks ticks;

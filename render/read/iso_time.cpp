@@ -28,41 +28,54 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
+constexpr double day = 86'400, hour = 3600, minute = 60;
+
 /// `HH:MM` or `HHMM`, as seconds.
 std::optional<double> take_hours(std::string_view& text) {
   const auto hours = take_digits(text, 2);
   take(text, ':');
   const auto minutes = hours ? take_digits(text, 2) : std::nullopt;
   if (!minutes || *hours > 24 || *minutes > 59) return {};
-  return 3600.0 * *hours + 60.0 * *minutes;
+  return hour * *hours + minute * *minutes;
 }
 
-/// The time of day with what follows it, as seconds in universal time.
-std::optional<double> take_time(std::string_view text) {
-  auto seconds = take_hours(text);
-  if (!seconds) return {};
-  if (take(text, ':')) {
-    const auto end = text.find_first_not_of("0123456789.,");
-    std::string part(text.substr(0, end));
-    if (const auto comma = part.find(','); comma != std::string::npos) part[comma] = '.';
-    const auto value = part.size() >= 2 && part.find('.') != 0 ? number_in(part) : std::nullopt;
-    if (!value || *value > 60) return {};
-    *seconds += *value;
-    text.remove_prefix(part.size());
-  }
-  if (*seconds > 86400) return {};
-  if (text.empty() || text == "Z" || text == "z") return seconds;
+/// What `Z`, `+01:00`, `-0330` or `+02` at the end of a time add to universal time, in seconds; 0 of nothing.
+std::optional<double> offset_in(std::string_view text) {
+  if (text.empty() || text == "Z" || text == "z") return 0;
   const bool ahead = take(text, '+');
   if (!ahead && !take(text, '-')) return {};
   std::optional<double> offset;
   if (text.size() == 2) {
     const auto hours = take_digits(text, 2);
-    if (hours && *hours < 24) offset = 3600.0 * *hours;
+    if (hours) offset = hour * *hours;
   } else {
     offset = take_hours(text);
   }
-  if (!offset || !text.empty()) return {};
-  return ahead ? *seconds - *offset : *seconds + *offset;
+  if (!offset || !text.empty() || *offset >= day) return {};
+  return ahead ? *offset : -*offset;
+}
+
+/// The time of day with what follows it, as seconds in universal time.
+std::optional<double> take_time(std::string_view text) {
+  const auto minutes = take_hours(text);
+  if (!minutes) return {};
+  double seconds = 0;
+  if (take(text, ':')) {
+    const auto end = text.find_first_not_of("0123456789.,");
+    std::string part(text.substr(0, end));
+    if (const auto comma = part.find(','); comma != std::string::npos) part[comma] = '.';
+    const auto value = part.size() >= 2 && part.find('.') != 0 ? number_in(part) : std::nullopt;
+    if (!value || *value >= minute + 1) return {};
+    seconds = *value;
+    text.remove_prefix(part.size());
+  }
+  const auto offset = offset_in(text);
+  if (!offset) return {};
+  const double universal = *minutes - *offset;
+  // Leap seconds are at the end of a day of universal time; clocks of computers, which have none, show the next day's begin.
+  const bool is_last_minute = std::fmod(universal + day, day) == day - minute;
+  if (seconds >= minute ? !is_last_minute : *minutes + seconds > day) return {};
+  return universal + seconds;
 }
 
 }  // namespace
@@ -85,11 +98,13 @@ std::optional<double> iso_time(std::string_view text) {
 }
 
 std::string iso_text(double seconds) {
-  constexpr double day = 86400, microseconds = 1e6, most_days = 4e6;
+  // of the years 0 to 9999, which four digits tell
+  constexpr double microseconds = 1e6, first_day = -719'528, end_day = 2'932'897;
   double days = std::floor(seconds / day);
-  if (!std::isfinite(seconds) || std::abs(days) > most_days) return "";
+  if (!(days >= first_day && days < end_day)) return "";
   auto rest = std::llround((seconds - days * day) * microseconds);
   if (rest == std::llround(day * microseconds)) rest = 0, days += 1;
+  if (days == end_day) return "";
   using namespace std::chrono;
   const year_month_day date{sys_days{std::chrono::days{static_cast<int>(days)}}};
   auto text = fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),

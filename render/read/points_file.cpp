@@ -4,6 +4,7 @@
 
 #include "common/error.hpp"
 #include "read/byte_stream.hpp"
+#include "read/dump_parts.hpp"
 #include "read/text_frames.hpp"
 #include "read/vtk_points.hpp"
 #include "read/vtk_process.hpp"
@@ -39,6 +40,11 @@ PointSet parse_points(std::vector<FileBytes> parts, const std::function<bool(std
   if (parts.size() == 1)
     if (const auto format = text_format(parts[0].bytes))
       return *format == PointSet::Format::dump ? parse_dump(parts[0], wanted) : parse_xyz(parts[0], wanted);
+  if (parts.size() > 1 && text_format(parts[0].bytes) == PointSet::Format::dump) {
+    std::vector<PointSet> sets;
+    for (const auto& part : parts) sets.push_back(parse_dump(part, wanted));
+    return join_parts(std::move(sets), parts);
+  }
   return parse_vtk(std::move(parts), wanted);
 }
 

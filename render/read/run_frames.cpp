@@ -15,6 +15,7 @@
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "read/byte_stream.hpp"
+#include "read/dump_parts.hpp"
 #include "read/number.hpp"
 #include "read/points_file.hpp"
 
@@ -122,8 +123,8 @@ bool is_index_of_parts(const fs::path& path) {
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
-/// The frames of files of text.
-std::vector<FrameFile> text_frames(const std::vector<fs::path>& files) {
+/// The frames of files of text. InputError if they look like parts of one dump, of which only the last would be drawn.
+std::vector<FrameFile> text_frames(const std::vector<fs::path>& files, const fs::path& directory = {}) {
   std::vector<FrameFile> frames;
   for (const auto& file : files)
     for (auto& piece : find_pieces(file)) {
@@ -132,6 +133,11 @@ std::vector<FrameFile> text_frames(const std::vector<fs::path>& files) {
     }
   if (!std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.time.has_value(); }))
     return frames;
+  if (const auto pattern = parts_pattern(frames))
+    throw InputError(fmt::format(
+        "{}: files with the same times, as processes of LAMMPS write them: give '{}', and each frame is put together of its parts; "
+        "or one of the files",
+        directory.string(), (directory / *pattern).string()));
   std::stable_sort(frames.begin(), frames.end(),
                    [](const auto& a, const auto& b) { return *a.time < *b.time; });
   std::vector<FrameFile> last;
@@ -159,7 +165,7 @@ std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pa
     std::vector<fs::path> texts;
     for (const auto& name : others)
       if (text_format_of(directory / name)) texts.push_back(directory / name);
-    return text_frames(texts);
+    return text_frames(texts, directory);
   }
   std::sort(names.begin(), names.end(), natural_less);
   std::vector<FrameFile> frames;
@@ -181,6 +187,7 @@ std::vector<FrameFile> frames_of(const fs::path& source, bool tables = false) {
     if (frames.empty()) frames = files_in(source / "frames", "*", tables);
     return frames;
   }
+  if (names_parts(source)) return frames_of_parts(source);
   if (fs::exists(source, error)) {
     if (source.extension() == ".pvd") return read_pvd(source);
     if (source.extension() == ".series") return read_series_index(source);
@@ -267,9 +274,15 @@ void attach_networks(std::vector<FrameFile>& frames, const fs::path& source) {
 }
 
 std::vector<FileBytes> read_files(const FrameFile& frame) {
-  if (frame.piece)
-    return {{frame.path, read_piece(frame.path, frame.piece->from, frame.piece->size),
-             frame.piece->first_line, frame.piece->units}};
+  const auto text = [](const fs::path& path, const TextPiece& piece) {
+    return FileBytes{path, read_piece(path, piece.from, piece.size), piece.first_line, piece.units};
+  };
+  if (frame.piece) {
+    std::vector<FileBytes> files{text(frame.path, *frame.piece)};
+    for (std::size_t k = 0; k < frame.more_pieces.size(); ++k)
+      files.push_back(text(frame.more[k], frame.more_pieces[k]));
+    return files;
+  }
   auto files = read_parts(frame.path);
   for (const auto& more : frame.more)
     for (auto& part : read_parts(more)) files.push_back(std::move(part));

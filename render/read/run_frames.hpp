@@ -19,6 +19,7 @@ struct FrameFile {
   std::optional<TextPiece> piece =
       {};  ///< of a file of text, which may hold several frames: where this one stands
   std::optional<TextPiece> contacts_piece = {};  ///< the same of the contact network
+  std::vector<TextPiece> more_pieces = {};       ///< the same of `more`, where these are files of text
 };
 
 /// Reads ParaView's time index (.pvd): times and files, sorted by time. Paths are relative to the index. Parts of one time
@@ -37,6 +38,8 @@ std::vector<FrameFile> read_series_index(const std::filesystem::path& path);
 /// - a pattern with `*` and `?` in its last part, such as `post/dump*.vtk`;
 /// and instead of VTK files dumps of LAMMPS or XYZ files, with one frame each or many, packed or not. Of these, frames with
 /// a time stand in its order, and a time that comes again replaces the earlier one.
+/// Dumps that each process of LAMMPS wrote for itself are named as LAMMPS names them, `post/dump.%` or `post/dump.*.%`
+/// (dump_parts.hpp).
 /// A file contacts/NAME beside frames/NAME is that frame's contact network. InputError if nothing is found.
 std::vector<FrameFile> find_frames(const std::filesystem::path& source);
 

@@ -179,6 +179,18 @@ std::size_t Table::index(std::string_view name) const {
   return static_cast<std::size_t>(found - header.begin());
 }
 
+namespace {
+
+/// Why a cell is no number: dates are numbers where all of a column are dates.
+const char* no_number(std::string_view cell) {
+  const bool looks_like_date = cell.size() >= 10 && cell[4] == '-' && cell[7] == '-' &&
+                               cell.substr(0, 4).find_first_not_of("0123456789") == std::string_view::npos;
+  if (!looks_like_date) return "is not a number";
+  return iso_time(cell) ? "is a date, where others are numbers" : "is no date, or one that does not exist";
+}
+
+}  // namespace
+
 std::vector<double> Table::column(std::string_view name) const {
   const auto at = index(name);
   std::vector<double> values;
@@ -187,16 +199,27 @@ std::vector<double> Table::column(std::string_view name) const {
     const std::string& cell = rows[i][at];
     const auto value = number_of(cell, separator);
     if (!value && !is_gap(cell))
-      throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number", file.string(), lines[i], name, cell));
+      throw InputError(
+          fmt::format("{}:{}: {}: \"{}\" {}", file.string(), lines[i], name, cell, no_number(cell)));
     values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   return values;
 }
 
 std::vector<double> Table::values(std::string_view name) const {
-  if (!is_time(name)) return column(name);
-  std::vector<double> values;
   const auto at = index(name);
+  if (!is_time(name)) {
+    // where most are dates, that which is none is wrong, not those
+    const auto dates = std::count_if(rows.begin(), rows.end(),
+                                     [&](const auto& row) { return iso_time(row[at]).has_value(); });
+    for (std::size_t i = 0; i < rows.size() && 2 * static_cast<std::size_t>(dates) > rows.size(); ++i)
+      if (!iso_time(rows[i][at]) && !is_gap(rows[i][at]))
+        throw InputError(fmt::format(
+            "{}:{}: {}: \"{}\" is no date, or one that does not exist; most others here are dates",
+            file.string(), lines[i], name, rows[i][at]));
+    return column(name);
+  }
+  std::vector<double> values;
   for (const auto& row : rows)
     values.push_back(iso_time(row[at]).value_or(std::numeric_limits<double>::quiet_NaN()));
   return values;

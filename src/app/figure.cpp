@@ -362,7 +362,7 @@ namespace {
 /// What stands above the keys of a table: of `data.+table.where` "[data.where] with table".
 std::string heading_of(const std::string& table) {
   if (table.empty()) return "All recipes";
-  if (table == "plot.x") return "`[plot.x]`, and every other axis: y, right, those of panels and insets";
+  if (table == "plot.x") return "`[plot.x]`, and every other axis: y, right, top, those of panels and insets";
   const auto plus = table.find(".+");
   if (plus == table.npos) return fmt::format("`[{}]`", table);
   const auto end = std::min(table.find('.', plus + 1), table.size());
@@ -384,7 +384,8 @@ std::string figure_keys() {
     if (dot != key.key.npos) key.key = key.key.substr(dot + 1);
     // Axes look the same everywhere.
     if (table.starts_with("plot.") && table != "plot.x" &&
-        (table.ends_with(".x") || table.ends_with(".y") || table.ends_with(".right")))
+        (table.ends_with(".x") || table.ends_with(".y") || table.ends_with(".right") ||
+         table.ends_with(".top")))
       continue;
     auto found = std::ranges::find(tables, table, &std::pair<std::string, std::vector<KeyText>>::first);
     if (found == tables.end()) found = tables.insert(found, {table, {}});

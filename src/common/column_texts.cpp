@@ -4,24 +4,12 @@
 
 #include <algorithm>
 
+#include "common/column_units.hpp"
+#include "common/experiment_columns.hpp"
+
 namespace chute {
 namespace {
-
-// Units in SI and with m = g = d = 1.
-struct Unit {
-  const char *si, *reduced;
-};
-constexpr Unit none{"", ""}, length{"m", "d"}, time{"s", "sqrt(d/g)"}, speed{"m/s", "sqrt(gd)"},
-    spin{"rad/s", "sqrt(g/d)"}, energy{"J", "mgd"}, angle{"rad", "rad"}, degree{"deg", "deg"},
-    spread{"m²/s", "sqrt(g d³)"}, square{"m²", "d²"}, temperature{"m²/s²", "gd"}, force{"N", "mg"},
-    mass{"kg", "m"},
-    // In the plane stresses are forces per length and densities masses per area.
-    stress{"Pa (2D: N/m)", "mg/d² (2D: mg/d)"}, density{"kg/m³ (2D: kg/m²)", "m/d³ (2D: m/d²)"},
-    impulse{"N s", "m sqrt(gd)"}, momentum{"kg m/s", "m sqrt(gd)"}, rate{"1/m", "1/d"}, per_speed{"s/m", "1/sqrt(gd)"};
-
-ColumnText column(const char* name, Unit unit, const char* meaning) {
-  return {name, meaning, unit.si, unit.reduced};
-}
+using namespace column_units;
 
 constexpr const char* blocks =
     "standard error from the scatter of ten blocks of the time window (standard deviation of their means over √10)";
@@ -65,7 +53,7 @@ std::vector<ColumnText> behind_clock(const char* meaning, std::vector<ColumnText
   return all;
 }
 
-std::vector<TableText> all_tables() {
+std::vector<TableText> run_tables() {
   return {
       {"series.csv",
        "an output time",
@@ -359,6 +347,14 @@ std::vector<TableText> all_tables() {
   };
 }
 
+std::vector<TableText> all_tables() {
+  auto all = run_tables();
+  auto more = experiment_tables();
+  all.insert(std::ranges::find(all, "figure", &TableText::file), std::make_move_iterator(more.begin()),
+             std::make_move_iterator(more.end()));
+  return all;
+}
+
 bool stands_for(const std::string& pattern, std::string_view name) {
   if (!pattern.ends_with('*')) return pattern == name;
   return name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1));
@@ -390,13 +386,18 @@ std::optional<ColumnText> column_text(const TableText& table, std::string_view n
 }
 
 const TableText* find_table_text(std::string_view file, const std::vector<std::string>& columns) {
-  const auto& tables = table_texts();
-  const auto named = std::ranges::find(tables, file, &TableText::file);
-  if (named != tables.end()) return &*named;
-  const auto knows_all = std::ranges::find_if(tables, [&](const TableText& table) {
-    return std::ranges::all_of(columns, [&](const auto& c) { return column_text(table, c).has_value(); });
-  });
-  return knows_all == tables.end() ? nullptr : &*knows_all;
+  const auto known = [&](const TableText& table) {
+    return std::ranges::count_if(columns, [&](const auto& c) { return column_text(table, c).has_value(); });
+  };
+  const TableText* best = nullptr;  // of those of this name, such as series.csv of runs and of experiments
+  for (const auto& table : table_texts())
+    if ((table.file == file || table.file.starts_with(std::string(file) + " of ")) &&
+        (!best || known(table) > known(*best)))
+      best = &table;
+  if (best) return best;
+  for (const auto& table : table_texts())
+    if (known(table) == static_cast<std::ptrdiff_t>(columns.size())) return &table;
+  return nullptr;
 }
 
 std::string with_column_comments(std::string_view file, const std::string& csv, bool is_si) {

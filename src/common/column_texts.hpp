@@ -15,7 +15,7 @@ struct ColumnText {
 };
 
 struct TableText {
-  std::string file;   ///< name in a run or sweep
+  std::string file;   ///< name in a run or sweep; behind " of " the kind of run, where names are the same
   std::string rows;   ///< what a row is
   std::string error;  ///< how `X_err` of a column X is made; empty: there is none
   std::vector<ColumnText> columns;
@@ -25,7 +25,8 @@ const std::vector<TableText>& table_texts();
 
 /// What a column of a table of that file name means; of X_err, made from that of X. Nothing if it is not known.
 std::optional<ColumnText> column_text(const TableText& table, std::string_view column);
-/// The table of that file name, or else the first that knows all these columns, for files that were renamed.
+/// The table of that file name, of several the one that knows most of these columns; or else the first that knows all, for files
+/// that were renamed.
 const TableText* find_table_text(std::string_view file, const std::vector<std::string>& columns);
 
 /// A table's text with what its columns mean, their units and how errors were made as comment lines before the header; as it

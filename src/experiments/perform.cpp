@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "io/csv.hpp"
@@ -204,13 +205,17 @@ Outcome brake_failure(const Experiment& e, const Recording& record) {
 Outcome pushed_cylinder(const Experiment& e, const Recording& record) {
   Outcome made;
   const auto pushes = e.pushes();
-  const int every =
-      record ? static_cast<int>(std::max<std::int64_t>(1, std::llround(e.series.every / e.time_step))) : 1;
-  const auto states = push(e.cylinder(), pushes, every);
+  // The means below are over every step, however many of them the series has.
+  const auto states = push(e.cylinder(), pushes, 1);
+  const auto every =
+      record ? static_cast<std::size_t>(std::max<std::int64_t>(1, std::llround(e.series.every / e.time_step)))
+             : 1;
   made.columns = {"time", "F_s^p", "F_s^b", "dv/dt", "domega/dt", "v", "omega"};
-  for (const auto& s : states)
+  for (std::size_t k = 0; k < states.size(); k += every) {
+    const auto& s = states[k];
     made.series.push_back(
         {s.time, s.plane_force, s.block_force, s.acceleration, s.spin_up, s.velocity, s.spin});
+  }
   auto laws = e.laws();
   double begin = 0;
   for (std::size_t k = 0; k < pushes.size(); ++k) {
@@ -221,6 +226,7 @@ Outcome pushed_cylinder(const Experiment& e, const Recording& record) {
       made.results.push_back({fmt::format("{} {}", name, k + 1), found.mean, "",
                               fmt::format("mean of the last quarter at F_p = {}; +- {:.4g}; theory {:.6g}",
                                           pushes[k].force, found.swing, expected)});
+      made.errors[made.results.back().name] = found.swing;
     };
     add("F_s^p", &CylinderState::plane_force, theory.plane_force);
     add("F_s^b", &CylinderState::block_force, theory.block_force);
@@ -232,17 +238,37 @@ Outcome pushed_cylinder(const Experiment& e, const Recording& record) {
   return made;
 }
 
+/// Which table of column_texts.hpp its series is.
+std::string series_name(Kind kind) {
+  switch (kind) {
+    case Kind::column:
+      return "series.csv of column";
+    case Kind::brake_failure:
+      return "series.csv of brake-failure";
+    case Kind::pushed_cylinder:
+      return "series.csv of pushed-cylinder";
+    default:
+      return "series.csv of impacts";
+  }
+}
+
 void write_files(const Experiment& e, const Outcome& outcome, io::RunFiles& files) {
   const auto comment =
       fmt::format("{}; units: {}; chute {} ({})", e.title, units_text(e), run::version, run::commit);
+  const bool is_si = e.units == scene::Units::si;
   io::Csv series({"what happened, per time since the surfaces met", comment},
                  {outcome.columns.begin(), outcome.columns.end()});
   for (const auto& row : outcome.series) series.row(std::vector<io::Csv::Cell>(row.begin(), row.end()));
-  files.write("series.csv", series.text());
-  io::Csv result({"what the experiment gave; meanings: chute run prints them", comment},
-                 {"name", "unit", "value"});
-  for (const auto& r : outcome.results) result.row({r.name, r.unit}, {r.value});
-  files.write("result.csv", result.text());
+  files.write("series.csv", with_column_comments(series_name(e.kind), series.text(), is_si));
+  std::vector<std::string> comments{"what the experiment gave", comment};
+  for (const auto& r : outcome.results) comments.push_back(fmt::format("{}: {}", r.name, r.meaning));
+  io::Csv result(comments, {"name", "unit", "value", "value_err"});
+  for (const auto& r : outcome.results) {
+    const auto error = outcome.errors.find(r.name);
+    result.row({r.name, r.unit},
+               {r.value, error == outcome.errors.end() ? io::Csv::Cell() : io::Csv::Cell(error->second)});
+  }
+  files.write("result.csv", with_column_comments("result.csv", result.text(), is_si));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #pragma once
+#include <map>
+
 #include "experiments/experiment.hpp"
 #include "run/run.hpp"
 
@@ -7,6 +9,8 @@ namespace chute::experiments {
 /// What an experiment gave.
 struct Outcome {
   std::vector<Fact> results;
+  std::map<std::string, double>
+      errors;  ///< of results that are means of a motion that goes on: half of its range
   std::int64_t steps = 0;
   double time = 0;
   // only if recorded:

@@ -55,11 +55,14 @@ struct Flow {
 ///   or by less than three of its standard errors, which must not exceed 0.15 of the velocity; and the last
 ///   eighth of the run lies within 15 % of the mean, or within four standard deviations of the stretches.
 /// - `runaway`: three eighths of the run in a row were a plateau (means of the eighths within 15 %), the last
-///   eighth is at least 1.3 times as fast and faster than all blocks of the plateau, and not slower than the
-///   eighth before.
-/// - `accelerating`: over the last three quarters of the run the velocity grows by a fifth or more, and the
-///   growth from the second of these quarters to the third is at least 0.8 of that from the first to the
-///   second. An approach to some velocity within a time shorter than the run slows down more than that.
+///   eighth is at least 1.3 times as fast and beyond the plateau's mean by four standard deviations of the blocks up to the
+///   plateau's end (but the first eighth of the run), and the velocity still grows: over the last quarter by more than three
+///   standard errors of its trend, and the last sixteenth is the fastest of all. A flow that recovers before the end, or strays
+///   no farther than it did before, is none.
+/// - `accelerating`: over the last three quarters of the run the velocity grows by a fifth or more and by more than three
+///   standard errors of its trend, the growth from the second of these quarters to the third is at least 0.8 of that from the
+///   first to the second, and the last sixteenth is slower than the fastest by no more than sixteenths scatter about the trend.
+///   An approach to some velocity within a time shorter than the run slows down more than that.
 /// - `unsettled`: everything else, and less than 64 rows. `runaway` and `accelerating` need a record of 20 √(length/g).
 ///
 /// Errors are standard errors over twelve stretches, enlarged by √((1+r)/(1−r)) where neighbouring stretches

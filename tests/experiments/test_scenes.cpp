@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
 #include "../runs/folder.hpp"
 #include "common/atomic_file.hpp"
+#include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "experiments/perform.hpp"
 #include "experiments/recipe.hpp"
+#include "read/table.hpp"
 
 using namespace chute;
 using namespace chute::test;
@@ -54,10 +57,40 @@ TEST_CASE("Every experiment runs, and what it wrote runs again to the same bytes
     CHECK(first.count("series.csv") + first.count("result.csv") + first.count("scene.toml") == 3);
     CHECK(first.count("frames.pvd") == (name == "brake-failure" ? 1 : 0));
     CHECK(first.at("series.csv").size() > 2000);
+    for (const char* file : {"series.csv", "result.csv"}) {
+      const auto text = read_file(folder / "once" / file);
+      const auto table = read::parse_table(text, file);
+      const auto* meanings = find_table_text(file, table.header);
+      REQUIRE(meanings);
+      for (const auto& column : table.header) {
+        CAPTURE(file, column);
+        CHECK(column_text(*meanings, column));
+        const bool spin = column.starts_with("omega_");
+        if (!column.ends_with("_err"))
+          CHECK(text.find("\n# column " + (spin ? "omega_*" : column)) != std::string::npos);
+      }
+    }
+    const auto outcome = read::read_table(folder / "once/result.csv");
+    for (const auto& result : outcome.text("name"))  // each says what it is
+      CHECK(
+          std::ranges::any_of(outcome.comments, [&](const auto& c) { return c.starts_with(result + ": "); }));
     options.directory = folder / "once";
     CHECK_THROWS_AS(run_experiment(again, options), InputError);  // a run is there
   }
   CHECK_FALSE(is_experiment(file_of("demo")));
+}
+
+TEST_CASE("Results do not depend on how often the series is written") {
+  Folder folder;
+  std::vector<std::string> results;
+  for (const char* every : {"output.series.every=1e-4", "output.series.every=0.02"}) {
+    run::RunOptions options;
+    options.directory = folder / std::to_string(results.size());
+    run_experiment(read_experiment(file_of("pushed-cylinder"), {every}), options);
+    results.push_back(read_file(options.directory / "result.csv"));
+  }
+  CHECK(results[0] == results[1]);
+  CHECK(results[0].find(",,\n") == std::string::npos);  // each has a value and an error
 }
 
 TEST_CASE("A normal impact has the restitution of its law, whatever the law") {

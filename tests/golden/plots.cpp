@@ -143,6 +143,18 @@ std::vector<Golden> plot_goldens() {
                               }},
                              {"the second axis 2 % longer", [](Figure& f) { f.panels[2].right->max = 45; }},
                              {"one axis for both", [](Figure& f) { f.panels[2].series[1].right = false; }}}),
+      golden_of("contours",
+                {{"a contour at another value", [](Figure& f) { f.panels[0].map->levels[2] = 0.6; }},
+                 {"no values on the contours", [](Figure& f) { f.panels[0].map->values_on_lines = false; }},
+                 {"a marker where a value stood", [](Figure& f) { f.panels[0].series[0].x[7] = 5.0; }},
+                 {"one contour fewer", [](Figure& f) { --f.panels[1].map->contours; }}}),
+      golden_of("twin-axes",
+                {{"the axis above 2 % longer", [](Figure& f) { f.panels[0].top->max = 2.6e-3; }},
+                 {"one axis of x for both", [](Figure& f) { f.panels[0].series[1].top = false; }},
+                 {"errors of x 10 % longer",
+                  [](Figure& f) {
+                    for (double& e : f.panels[0].series[1].x_err) e *= 1.1;
+                  }}}),
       golden_of("return-map",
                 {{"no diagonal", [](Figure& f) { f.panels[1].references.clear(); }},
                  {"x and y exchanged",

@@ -137,6 +137,91 @@ TEST_CASE("a plateau that is left for good is a runaway") {
     }
 }
 
+TEST_CASE("a flow that grows for a while and recovers has not run away, nor does it accelerate") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (const double back : {280.0, 320.0, 340.0, 360.0}) {
+      const auto v = [&](double t) {
+        return t < 220    ? 1
+               : t < back ? 1 + 0.01 * (t - 220)
+                          : std::max(1.0, 1 + 0.01 * (back - 220) - 0.03 * (t - back));
+      };
+      const auto verdict = made(v, {0.1, 5, seed}).judged().verdict;
+      INFO("turns back at " << back << ", seed " << seed << ": " << name(verdict));
+      CHECK((verdict == Verdict::unsettled || verdict == Verdict::steady));
+    }
+}
+
+/// Mean way of the grains of chute-2d.toml with μ = 0.5, θ = 16.2°, e_n = 0.6, k_n = 10⁶, γ_s = 500 and seed 1 at t = 0, 1, 2 …:
+/// its velocity falls to 0.47, grows to 0.66 from t = 70 to 100, and stays between 0.55 and 0.7 up to t = 230.
+const std::vector<double> slow_flow{
+    14.70,  16.80,  19.03,  21.25,  23.26,  25.08,  26.88,  28.58,  30.22,  31.86,  33.33,  34.81,  36.29,
+    37.69,  39.09,  40.37,  41.56,  42.83,  44.03,  45.14,  46.21,  47.19,  48.13,  49.05,  49.93,  50.74,
+    51.48,  52.20,  52.92,  53.62,  54.26,  54.90,  55.54,  56.14,  56.71,  57.28,  57.88,  58.60,  59.41,
+    60.08,  60.68,  61.26,  61.79,  62.32,  62.82,  63.28,  63.76,  64.23,  64.73,  65.25,  65.80,  66.29,
+    66.75,  67.19,  67.65,  68.14,  68.68,  69.23,  69.74,  70.19,  70.67,  71.16,  71.64,  72.07,  72.53,
+    73.05,  73.57,  74.03,  74.45,  74.90,  75.38,  75.84,  76.28,  76.70,  77.15,  77.63,  78.13,  78.66,
+    79.18,  79.70,  80.22,  80.76,  81.31,  81.86,  82.41,  83.01,  83.63,  84.22,  84.82,  85.44,  86.05,
+    86.67,  87.29,  87.90,  88.53,  89.18,  89.83,  90.53,  91.26,  91.93,  92.62,  93.31,  93.94,  94.58,
+    95.26,  95.93,  96.56,  97.18,  97.82,  98.46,  99.09,  99.78,  100.47, 101.14, 101.81, 102.49, 103.17,
+    103.83, 104.44, 105.02, 105.62, 106.19, 106.73, 107.28, 107.86, 108.47, 109.07, 109.66, 110.21, 110.77,
+    111.34, 111.90, 112.44, 113.04, 113.67, 114.29, 114.92, 115.57, 116.22, 116.83, 117.47, 118.13, 118.77,
+    119.42, 120.07, 120.78, 121.45, 122.14, 122.88, 123.70, 124.47, 125.17, 125.86, 126.55, 127.21, 127.84,
+    128.52, 129.22, 129.84, 130.45, 131.08, 131.75, 132.41, 133.04, 133.71, 134.49, 135.27, 135.94, 136.61,
+    137.31, 137.96, 138.56, 139.16, 139.76, 140.35, 140.92, 141.56, 142.18, 142.77, 143.37, 143.96};
+
+TEST_CASE("a slow flow that had grown for a while is unsettled, and steady some time later") {
+  const auto judged = [](std::size_t rows) {
+    const std::vector<double> x(slow_flow.begin(), slow_flow.begin() + static_cast<std::ptrdiff_t>(rows));
+    std::vector<double> time, kinetic(rows, 0.3), omega(rows, 0.1);
+    for (std::size_t k = 0; k < rows; ++k) time.push_back(static_cast<double>(k));
+    return measure::judge_flow({time, x, omega, kinetic}, {1, 1});
+  };
+  CHECK(judged(101).verdict == Verdict::unsettled);  // was runaway
+  const auto later = judged(181);
+  CHECK(later.verdict == Verdict::steady);
+  CHECK(later.v_x.mean == Approx(0.6).margin(0.06));
+}
+
+TEST_CASE("a mean velocity that noise leaves for long does not run away, nor accelerate") {
+  // correlated over a twentieth to a fifth of the record, as slow dense flows are
+  for (const double spread : {0.15, 0.3, 0.5})
+    for (const double correlation : {10.0, 20.0, 40.0}) {
+      int away = 0, faster = 0;
+      const int runs = 150;
+      for (int k = 0; k < runs; ++k) {
+        const auto flow =
+            made([](double) { return 1; }, {spread, correlation, static_cast<std::uint64_t>(k)}, 200, 201);
+        const auto verdict = flow.judged().verdict;
+        away += verdict == Verdict::runaway, faster += verdict == Verdict::accelerating;
+      }
+      INFO("spread " << spread << ", correlation " << correlation << ": " << away << " run away, " << faster
+                     << " accelerate of " << runs);
+      CHECK(away <= 0.02 * runs);
+      CHECK(faster <= 0.04 * runs);
+    }
+}
+
+TEST_CASE("slow growth from the start on is no plateau that was left") {
+  int away = 0, faster = 0;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const auto verdict = made([](double t) { return 0.5 + 0.01 * t; }, {0.2, 10, seed}).judged().verdict;
+    away += verdict == Verdict::runaway, faster += verdict == Verdict::accelerating;
+  }
+  CHECK(away <= 1);
+  CHECK(faster >= 35);
+}
+
+TEST_CASE("a short record of a decay or a plateau is no runaway") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto decay = made([](double t) { return 1 + 2 * std::exp(-t / 100); }, {0.1, 3, seed});
+    CHECK(decay.judged().verdict != Verdict::runaway);
+    CHECK(decay.judged().verdict != Verdict::accelerating);
+    const auto early =
+        made([](double t) { return t < 10 ? 1 : 1 + 0.2 * (t - 10); }, {0.1, 3, seed}, 18, 181);
+    CHECK(early.judged().verdict == Verdict::unsettled);
+  }
+}
+
 TEST_CASE("what is still on its way is unsettled") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     INFO("seed " << seed);

@@ -5,6 +5,7 @@
 
 #include "common/error.hpp"
 #include "plot/cells.hpp"
+#include "plot/contours.hpp"
 #include "plot/layout.hpp"
 #include "plot/map.hpp"
 #include "plot/recipe.hpp"
@@ -216,7 +217,7 @@ TEST_CASE("names of phases stand in place of markers, and numbers at the ends of
   auto& panel = field.panels[0];
   panel.x.label = "$x$", panel.y.label = "$y$", panel.parameters = "$z=1$";
   panel.x.min = panel.y.min = 0, panel.x.max = panel.y.max = 2.7;
-  panel.map = Map{{0, 1, 2}, {0, 1, 2}, {0, 1, 0, 1, 0, 1, 0, 1, 0}, 0, 1, "$w$", false, false, 3, 4};
+  panel.map = Map{{0, 1, 2}, {0, 1, 2}, {0, 1, 0, 1, 0, 1, 0, 1, 0}, 0, 1, "$w$", false, false, 3, 4, {}};
   for (const auto& finding : review(field, lay_out(field))) FAIL_CHECK(finding.what);
 }
 
@@ -229,7 +230,12 @@ TEST_CASE("bands end where the value is that of their line") {
   map.filled = 6, map.contours = 5;
   DisplayList list;
   const Frame frame{{0, 0, 100, 100}, {0, 1, Scale::linear}, {0, 1, Scale::linear}};
-  draw_map(list, look_of(Style::journal), frame, map);
+  draw_map(list, frame, map);
+  const Look look = look_of(Style::journal);
+  Occupancy occupied(frame.rect);
+  Painter painter{list, look, occupied};
+  map.values_on_lines = false;
+  draw_contours(painter, frame, contours_of(map, frame, look, occupied));
   std::vector<double> areas;
   std::size_t lines = 0;
   for (const auto& item : list.items) {
@@ -268,7 +274,7 @@ TEST_CASE("bands end where the value is that of their line") {
   for (int k = 0; k < 6; ++k) CHECK(areas[std::size_t(k)] == Approx(1 - below(0.5 * k)));
   map.values[8] = unknown;  // the four cells about it are blank
   DisplayList with_hole;
-  draw_map(with_hole, look_of(Style::journal), frame, map);
+  draw_map(with_hole, frame, map);
   const auto& lowest = std::get<FillItem>(with_hole.items[0]);
   for (const auto& p : lowest.path.points)
     CHECK((p.x() > 100 / 3.0 - 1e-9 || p.y() < 100 - 100 / 3.0 + 1e-9));

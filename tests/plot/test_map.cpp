@@ -42,7 +42,7 @@ TEST_CASE("cells are filled where they lie, joined along a row, and unknown ones
   map.values[5] = unknown;
   DisplayList list;
   const Frame frame{{0, 0, 400, 400}, {0, 4, Scale::linear}, {0, 4, Scale::linear}};
-  draw_map(list, look_of(Style::journal), frame, map);
+  draw_map(list, frame, map);
   // Which colour lies at a point of the page.
   const auto at = [&](double x, double y) {
     std::optional<Color> found;
@@ -59,18 +59,6 @@ TEST_CASE("cells are filled where they lie, joined along a row, and unknown ones
   CHECK(same(*at(50, 350), map_color(0.5 / 96, false)));
   CHECK(same(*at(350, 50), map_color(95.5 / 96, false)));
   CHECK_FALSE(at(150, 250));  // second column, second row from below
-}
-
-TEST_CASE("contours run where the values cross") {
-  auto map = ramp(5);
-  map.contours = 1;  // halfway: at x = 2.5, where the value is 2
-  DisplayList list;
-  const Frame frame{{0, 0, 500, 500}, {0, 5, Scale::linear}, {0, 5, Scale::linear}};
-  draw_map(list, look_of(Style::journal), frame, map);
-  const auto* line = std::get_if<StrokeItem>(&list.items.back());
-  REQUIRE(line);
-  REQUIRE_FALSE(line->path.empty());
-  for (const auto& p : line->path.points) CHECK(p.x() == Approx(250));
 }
 
 TEST_CASE("a recipe makes a map of rows that are named by their place") {

@@ -1,4 +1,4 @@
-// A second axis of y: its series count along it, its ticks say what they are; notes with arrows point where they should.
+// Second axes of y and of x: their series count along them, their ticks say what they are; notes with arrows point where they should.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -96,4 +96,49 @@ TEST_CASE("a note's arrow ends where it points, in the note's colour") {
   CHECK_THROWS_WITH(
       lay_out(figure_of("[[plot.panel]]\nnote = [{ text = \"here\", x = 1, y = 30, arrow = [5, 30] }]\n")),
       Catch::Contains("points out of its panel"));
+}
+
+TEST_CASE("axes twice both ways: points of the second axis of x stand at its ticks, and nothing overlaps") {
+  auto figure = figure_of(
+      "right = { label = \"$E$\", factor = 10, min = 150, max = 450 }\n"
+      "top = { label = \"$s$ (m)\", factor = 1e-5, min = -0.1e-5, max = 2.1e-5 }\n"
+      "[[plot.series]]\nmatch = \"energy\"\naxis = \"right\"\nx_axis = \"top\"\n");
+  const auto layout = lay_out(figure);
+  const auto& panel = figure.panels[0];
+  REQUIRE(panel.top);
+  CHECK(panel.series[1].x == std::vector<double>{0, 1e-5, 2e-5});
+  CHECK(panel.series[0].x == std::vector<double>{0, 1, 2});
+  CHECK(panel.series[1].label == "energy (right, top)");
+  Rect frame;
+  for (const auto& box : layout.boxes)
+    if (box.kind == Box::Kind::frame) frame = box.rect;
+  std::map<std::string, double> above;
+  bool factor = false;
+  for (const auto& box : layout.boxes) {
+    if (box.kind == Box::Kind::tick_label && box.rect.bottom < frame.top)
+      above[box.text.substr(1, box.text.size() - 2)] = box.rect.centre().x();
+    factor |= box.kind == Box::Kind::factor && box.rect.bottom < frame.top && box.text == "$\\times10^{-5}$";
+  }
+  CHECK(factor);
+  REQUIRE(above.count("1.0"));
+  CHECK(above.at("0.0") < above.at("1.0"));
+  int found = 0;
+  for (const auto& tag : layout.list.tags) {
+    if (tag.kind != Tag::Kind::marker || tag.series != "energy") continue;
+    const auto* fill = std::get_if<FillItem>(&layout.list.items[tag.first]);
+    REQUIRE(fill);
+    const double x = fill->path.bounds().centre().x();
+    const char* ticks[] = {"0.0", "1.0", "2.0"};
+    CHECK(x == Approx(above.at(ticks[found])).margin(0.6));
+    ++found;
+  }
+  CHECK(found == 3);
+  for (const auto& finding : review(figure, layout)) FAIL_CHECK(finding.what);
+}
+
+TEST_CASE("what cannot be above is told") {
+  CHECK_THROWS_WITH(figure_of("[[plot.panel]]\ntop = { label = \"$s$\" }\n"),
+                    Catch::Contains("no series of this panel has x_axis = \"top\""));
+  CHECK_THROWS_WITH(figure_of("[[plot.series]]\nmatch = \"energy\"\nx_axis = \"right\"\n"),
+                    Catch::Contains("fig.toml:6: plot.series[0].x_axis"));
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include "plot/mathtext.hpp"
 #include "plot/recipe.hpp"
 #include "plot/scale.hpp"
+#include "plot/time_ticks.hpp"
 #include "read/iso_time.hpp"
 
 using namespace chute;
@@ -105,4 +108,123 @@ TEST_CASE("A table's dates make an axis of dates") {
   extent.include(*read::iso_time("2026-03-07"), plot::Scale::linear);
   const auto span = plot::span_of(axis, extent);
   CHECK(span.high - span.low == 86400);
+}
+
+TEST_CASE("Instants of all years come back from their texts, in whatever zone they are told") {
+  std::mt19937 random(3);
+  const auto [first, last] = plot::calendar();
+  std::uniform_real_distribution<double> when(first, last);
+  std::uniform_int_distribution<int> zone(-23 * 60 - 59, 23 * 60 + 59);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const double t = std::floor(when(random)) + (trial % 4) * 0.25;
+    const auto text = read::iso_text(t);
+    INFO(text);
+    REQUIRE(read::iso_time(text));
+    CHECK(*read::iso_time(text) == t);
+    const int minutes = zone(random);  // the same instant as a clock shows it there
+    const auto local = read::iso_text(t + 60.0 * minutes);
+    if (local.find('T') == std::string::npos || t + 60.0 * minutes > last || t + 60.0 * minutes < first)
+      continue;
+    const auto told = fmt::format("{}{}{:02}:{:02}", local, minutes < 0 ? '-' : '+', std::abs(minutes) / 60,
+                                  std::abs(minutes) % 60);
+    INFO(told);
+    REQUIRE(read::iso_time(told));
+    CHECK(*read::iso_time(told) == t);
+  }
+}
+
+TEST_CASE("Leap seconds are there at the end of a day of universal time, and nowhere else") {
+  CHECK(read::iso_time("2016-12-31T23:59:60Z") == read::iso_time("2017-01-01"));
+  CHECK(*read::iso_time("2016-12-31T23:59:60.5") == *read::iso_time("2017-01-01") + 0.5);
+  CHECK(read::iso_time("2017-01-01T00:59:60+01:00") == read::iso_time("2017-01-01"));
+  CHECK(read::iso_time("2016-12-31T18:59:60-0500") == read::iso_time("2017-01-01"));
+  for (const char* none :
+       {"2016-12-31T12:30:60Z", "2016-12-31T23:59:60+01:00", "2016-12-31T23:59:61Z", "2016-12-31T24:00:01",
+        "2016-12-31T24:30", "2016-12-31T12:00+24:00", "2016-02-30", "2015-02-29"})
+    CHECK_FALSE(read::iso_time(none));
+  CHECK(read::iso_time("2016-12-31T24:00") == read::iso_time("2017-01-01"));
+}
+
+TEST_CASE("What no four digits tell has no text") {
+  CHECK(read::iso_text(*read::iso_time("0001-01-01") - 367 * 86400.0).empty());
+  CHECK(read::iso_text(*read::iso_time("9999-12-31T23:59:59.9999999")).empty());
+  for (const double t : {1e300, -1e300, double(INFINITY), double(-INFINITY), double(NAN)})
+    CHECK(read::iso_text(t).empty());
+}
+
+TEST_CASE("Axes of dates go from the year 1 to 9999 and say so; the room beside dates ends there") {
+  plot::Axis axis;
+  axis.times = true;
+  axis.label = "day";
+  const auto of = [&](double low, double high) {
+    plot::Extent extent;
+    extent.include(low, plot::Scale::linear, plot::Extent::Mark::marker);
+    extent.include(high, plot::Scale::linear, plot::Extent::Mark::marker);
+    return plot::span_of(axis, extent);
+  };
+  const double first = *read::iso_time("0001-01-01"), last = *read::iso_time("9999-12-31T23:59:59");
+  for (const auto& [low, high] :
+       {std::pair{first, last}, {first, first}, {last, last}, {first, 0.0}, {0.0, last}}) {
+    const auto span = of(low, high);
+    const auto ticks = plot::ticks_for(axis, span, 300, 8, true);
+    CAPTURE(low, high, ticks.factor);
+    CHECK(span.low >= first);
+    CHECK(span.high <= last);
+    CHECK(ticks.major.size() >= 1);
+    CHECK_THAT(ticks.factor, !Contains("times"));  // dates, no powers of ten
+  }
+  CHECK_THROWS_WITH(of(first - 1, 0), Contains("axis \"day\"") && Contains("year 1 to the year 9999"));
+  CHECK_THROWS_WITH(of(0, last + 1), Contains("year 1 to the year 9999"));
+  for (const double limit : {1e12, -1e12, 1e300}) {
+    axis.max = std::abs(limit), axis.min = -std::abs(limit);
+    CHECK_THROWS_WITH(of(0, 1), Contains("the limit") && Contains("dates: from, to"));
+  }
+}
+
+TEST_CASE("Any axis of dates is laid out or refused, and never overflows") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-3, 12), sign(-1, 1);
+  int refused = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    plot::Axis axis;
+    axis.times = true;
+    const auto any = [&] { return std::copysign(std::pow(10, exponent(random)), sign(random)); };
+    plot::Extent extent;
+    for (int k = 0; k < 2; ++k) extent.include(any(), plot::Scale::linear);
+    if (trial % 3 == 0) axis.min = any();
+    if (trial % 5 == 0) axis.max = any();
+    try {
+      const auto span = plot::span_of(axis, extent);
+      const auto ticks = plot::ticks_for(axis, span, 200, 8, true);
+      CHECK(span.low < span.high);
+      CHECK(ticks.major.size() <= 9);
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 50);
+  CHECK(refused < 2500);
+}
+
+TEST_CASE("A recipe's limits of an axis of dates are dates") {
+  const auto figure = [](const std::string& keys) {
+    const auto text = parse_toml("[plot]\nx = { " + keys + " }\n", "f.toml");
+    TomlReader reader(text, "f.toml");
+    plot::PlotRecipe recipe;
+    reader.section("plot", recipe);
+    reader.finish();
+    return plot::figure_from(
+        recipe, read::parse_table("panel,series,x,y\n,a,2026-03-07,1\n,a,2026-03-09T12:00+02:00,2\n"
+                                  ",a,1969-12-31T23:00Z,3\n",
+                                  "f.csv"));
+  };
+  const auto made = figure("from = \"2026-03-01\", to = \"2026-04-01T00:00+02:00\"");
+  CHECK(made.panels[0].x.min == read::iso_time("2026-03-01"));
+  CHECK(made.panels[0].x.max == read::iso_time("2026-03-31T22:00"));
+  CHECK(made.panels[0].series[0].x[1] == *read::iso_time("2026-03-09T10:00"));
+  CHECK(made.panels[0].series[0].x[2] == -3600);
+  CHECK_THROWS_WITH(figure("from = \"2026-02-30\""),
+                    Contains("f.toml:2: plot.x.from: \"2026-02-30\" is no date"));
+  CHECK_THROWS_WITH(figure("from = \"2026-02-03\", to = \"2026-02-03\""), Contains("must be before to"));
+  CHECK_THROWS_WITH(figure("from = \"2026-02-03\", min = 3"), Contains("give from or min"));
 }

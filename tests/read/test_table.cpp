@@ -98,3 +98,16 @@ TEST_CASE("A column's type, gaps and range") {
   CHECK(table.summary("none").type == Type::number);
   CHECK(std::isnan(table.summary("none").low));
 }
+
+TEST_CASE("A date that does not exist among dates is told with its line, and so is a date among numbers") {
+  const auto said = [](const std::string& cells) {
+    const auto table = read::parse_table("when\n" + cells, "t.csv");
+    return complaint([&] { table.values("when"); });
+  };
+  CHECK_THAT(said("2026-02-27\n2026-02-28\n2026-02-30\n"),
+             Contains("t.csv:4: when: \"2026-02-30\" is no date"));
+  CHECK_THAT(said("1\n2\n2026-02-28\n"),
+             Contains("t.csv:4: when: \"2026-02-28\" is a date, where others are numbers"));
+  CHECK_THAT(said("1\n2\n2026-02-30\n"),
+             Contains("t.csv:4: when: \"2026-02-30\" is no date, or one that does not exist"));
+}
