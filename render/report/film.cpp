@@ -66,32 +66,60 @@ struct Shot {
   std::size_t count() const { return (frames.size() + step - 1) / step; }
 };
 
-/// One range for all films that show the same numbers.
-std::optional<std::pair<double, double>> common_range(const std::vector<std::optional<Shot>>& shots,
-                                                      const view::FrameStyle& style, int jobs) {
-  std::optional<view::Survey> first;
-  double low = 0, high = 0;
+/// What films of several runs have in common, so that they can be compared.
+struct Common {
+  std::optional<std::pair<double, double>> range;  ///< of colours, if all show the same numbers
+  Eigen::AlignedBox3d bounds;  ///< what is seen of each, if they are about as large; else nothing
+  Eigen::AlignedBox2d turned;
+};
+
+/// One view for all runs of one kind. One that is much larger would make the others small.
+void share_view(const std::vector<view::Survey>& found, Common& common) {
+  constexpr double about_as_large = 2;
+  Eigen::AlignedBox3d bounds;
+  Eigen::AlignedBox2d turned;
+  for (const auto& one : found) {
+    if (one.dimensions != found[0].dimensions || one.units != found[0].units || one.turn != found[0].turn)
+      return;
+    bounds.extend(one.bounds), turned.extend(one.turned);
+  }
+  for (const auto& one : found)
+    if ((bounds.sizes().array() > about_as_large * one.bounds.sizes().array()).any()) return;
+  common.bounds = bounds;
+  if (found[0].dimensions == 2) common.turned = turned;
+}
+
+void share_range(const std::vector<view::Survey>& found, Common& common) {
+  double low = found[0].low, high = found[0].high;
+  for (const auto& one : found) {
+    const auto &field = one.field, &first = found[0].field;
+    if (field.is_none() || !one.categories.empty() || field.array != first.array || field.part != first.part)
+      return;
+    low = std::min(low, one.low), high = std::max(high, one.high);
+  }
+  if (low < high) common.range = {low, high};
+}
+
+Common common_to(const std::vector<std::optional<Shot>>& shots, const view::FrameStyle& style, int jobs) {
+  std::vector<view::Survey> found;
+  Common common;
   for (const auto& shot : shots) {
     if (!shot) continue;
     if (view::are_cells(shot->frames)) return {};
-    const auto found = view::survey(shot->frames, style, {}, jobs);
-    if (found.field.is_none() || !found.categories.empty()) return {};
-    if (!first) {
-      first = found, low = found.low, high = found.high;
-    } else if (found.field.array != first->field.array || found.field.part != first->field.part) {
-      return {};
-    } else {
-      low = std::min(low, found.low), high = std::max(high, found.high);
-    }
+    found.push_back(view::survey(shot->frames, style, {}, jobs));
   }
-  return first && low < high ? std::optional(std::pair(low, high)) : std::nullopt;
+  if (found.size() < 2) return {};
+  share_range(found, common);
+  share_view(found, common);
+  return common;
 }
 
 class Filmer {
  public:
-  Filmer(const FilmOptions& options, view::FrameStyle style, std::size_t runs)
+  Filmer(const FilmOptions& options, view::FrameStyle style, const Common& common, std::size_t runs)
       : options_(options),
         style_(std::move(style)),
+        common_(common),
         movies_(has_ffmpeg()),
         parts_(static_cast<double>(runs)) {}
 
@@ -123,6 +151,7 @@ class Filmer {
  private:
   const FilmOptions& options_;
   view::FrameStyle style_;
+  const Common& common_;
   bool movies_;
   double parts_, done_ = 0;
   Workshop workshop_;
@@ -131,6 +160,7 @@ class Filmer {
     view::RenderJob job;
     job.source = shot.source, job.style = style_, job.jobs = options_.jobs;
     job.frames.step = step;
+    job.also = common_.bounds, job.also_turned = common_.turned;
     job.progress = [this, begin, share](const char*, std::size_t done, std::size_t all) {
       if (options_.progress)
         options_.progress(
@@ -177,8 +207,9 @@ std::vector<Film> make_films(std::span<const RunFiles> runs, const FilmOptions& 
     shots.back() = Shot{*source, read::find_frames(*source)};
     shots.back()->step = std::max<std::size_t>(1, (shots.back()->frames.size() + most - 1) / most);
   }
-  if (runs.size() > 1) style.range = common_range(shots, style, options.jobs);
-  Filmer filmer(options, style, runs.size());
+  const auto common = common_to(shots, style, options.jobs);
+  style.range = common.range;
+  Filmer filmer(options, style, common, runs.size());
   std::vector<Film> films;
   for (const auto& shot : shots) {
     if (shot)

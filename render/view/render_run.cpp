@@ -23,6 +23,7 @@
 #include "view/idle_options.hpp"
 #include "view/movie.hpp"
 #include "view/render_cells.hpp"
+#include "view/walls.hpp"
 
 namespace chute::view {
 namespace fs = std::filesystem;
@@ -359,7 +360,10 @@ RenderReport render_run(const RenderJob& asked) {
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
   found.series = std::move(series);
   const Beside beside(job, frames);
+  if (!job.style.camera.all && !job.style.copies) include_round_walls(found, beside.walls);
+  found.bounds.extend(job.also), found.turned.extend(job.also_turned);
   check_options(job.style, found);
+  if (has_round_wall(beside.walls) && !job.style.floor) job.style.floor = false;
   if (found.dimensions == 3) furnish_space(job.style, found);
   if (!job.output.empty()) {
     std::error_code error;

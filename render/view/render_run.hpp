@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -39,6 +40,9 @@ struct RenderJob {
   read::Meanings meanings;  ///< what arrays of other programs' files are
   std::vector<std::string> plot;  ///< columns of `series` that are plotted against time beside the grains
   std::filesystem::path series;   ///< empty: the run's series.csv
+  /// To be seen, too, so that several runs are seen alike: as Survey::bounds and Survey::turned.
+  Eigen::AlignedBox3d also;
+  Eigen::AlignedBox2d also_turned;
   /// Hears what is being done ("reading", "drawing"), how much of it is done and how much there is.
   std::function<void(const char*, std::size_t, std::size_t)> progress;
 };

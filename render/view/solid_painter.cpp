@@ -8,6 +8,7 @@
 #include "view/lay_over.hpp"
 #include "view/painter.hpp"
 #include "view/solid_scene.hpp"
+#include "view/walls.hpp"
 
 namespace chute::view {
 namespace {
@@ -74,7 +75,7 @@ class SolidPainter : public Painter {
     if (studio_.style.arrows) add_arrows(frame);
     if (has_box()) add_box();
     if (studio_.style.floor.value_or(false)) add_floor();
-    for (const auto& wall : data.walls) add_wall(wall);
+    add_walls(data.walls);
     scene_.draw(content_, into);
     if (studio_.is_glassy()) show_behind(into);
     if (overflows() && studio_.style.furniture) keep_inside(into);
@@ -353,12 +354,12 @@ class SolidPainter : public Painter {
     content_.floor = floor;
   }
 
-  void add_wall(const read::WallPiece& wall) {
+  void add_walls(std::span<const read::WallPiece> walls) {
     constexpr double alpha = 0.16;
     const Rgb color = mix(studio_.palette.plain, studio_.palette.quiet, 0.5);
-    if (wall.corners.size() > 2) content_.panes.push_back({wall.corners, color, alpha});
-    for (std::size_t i = 0; i < wall.corners.size(); ++i)
-      add_line(wall.corners[i], wall.corners[(i + 1) % wall.corners.size()], line_width(), color);
+    for (const auto& wall : walls)
+      if (wall.corners.size() > 2) content_.panes.push_back({wall.corners, color, alpha});
+    for (const auto& [from, to] : edges_of(walls)) add_line(from, to, line_width(), color);
   }
 };
 

@@ -92,6 +92,10 @@ Recipe read_recipe(const fs::path& file) {
   // A recipe on standard input can be read once, and this is the one place that reads recipes.
   const auto text = file == standard_input_name ? read_input(standard_input).text : read_file(file);
   const auto table = parse_toml(text, file.string());
+  if (!table.contains("data") && !table.contains("plot") &&
+      (table.contains("grains") || table.contains("engine") || table.contains("experiment")))
+    throw InputError(
+        fmt::format("{}: a scene, not the recipe of a figure: chute run {}", file.string(), file.string()));
   TomlReader reader(table, file.string());
   Recipe recipe;
   recipe.plot.source = file.string();

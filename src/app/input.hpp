@@ -16,4 +16,7 @@ inline constexpr const char* standard_input_name = "standard-input";
 /// Reads the file, or standard input to its end for `-`. InputError if it cannot be read.
 Input read_input(const std::string& file);
 
+/// InputError if it is the recipe of a figure, and so is for another verb than those that take scenes.
+void refuse_recipe(const Input& input);
+
 }  // namespace chute::app

@@ -34,6 +34,7 @@ void refuse_what_a_run_would(const scene::Scene& scene, const std::string& name,
 
 Checked check(const std::string& file, const std::vector<std::string>& settings, bool beyond_machine) {
   const auto input = read_input(file);
+  refuse_recipe(input);
   Checked found{input.name, {}, {}, {}};
   const sweep::Base base{input.name, settings, input.text};
   if (experiments::is_experiment(input.text, input.name)) {

@@ -59,6 +59,7 @@ void run(const RunArguments& arguments) {
   options.way_on = fmt::format("go on with: chute run {} --resume", options.directory.string());
   // An interrupted run leaves a checkpoint, so that --resume goes on from there.
   watch_for_interrupt();
+  refuse_recipe(input);
   if (experiments::is_experiment(input.text, input.name)) return experiment(arguments, input, options);
   const auto scene = arguments.resume
                          ? run::parse_to_go_on(input.text, input.name, arguments.settings, options.directory)

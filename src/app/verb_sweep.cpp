@@ -3,6 +3,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "app/input.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
@@ -50,6 +51,7 @@ void run(const SweepArguments& arguments) {
     throw InputError("sweep: say with -o where the tables and the finished points go");
   sweep::Base base{of_sweep ? fs::path(arguments.scene) / "sweep.toml" : fs::path(arguments.scene),
                    arguments.settings};
+  if (!of_sweep) refuse_recipe({arguments.scene, base.text});
   if (!arguments.more.empty()) base.set.push_back(sweep::with_more_values(base, arguments.more));
   sweep::SweepOptions options;
   options.directory = arguments.directory.empty() ? arguments.scene : arguments.directory;

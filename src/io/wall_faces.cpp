@@ -81,10 +81,17 @@ std::vector<std::vector<Corner>> pipe(const Cylinder<D>& cylinder, const Vec<3>&
     const Box box(room);
     u = across(cylinder.axis, 3), v = cross(cylinder.axis, u);
     middle = point + dot(box.middle - point, cylinder.axis) * cylinder.axis;
-    half = box.size / 2 * cylinder.axis;
+    // As long as the room is along the axis: a period's pipe is neither shorter nor longer than the period.
+    double length = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto low = room[static_cast<std::size_t>(2 * k)],
+                 high = room[static_cast<std::size_t>(2 * k + 1)];
+      length += std::abs(cylinder.axis[k]) * (high - low);
+    }
+    half = length / 2 * cylinder.axis;
   }
   const auto rim = [&](int k) {
-    const double angle = 2 * std::numbers::pi * k / round_corners;
+    const double angle = 2 * std::numbers::pi * (k % round_corners) / round_corners;
     return middle + cylinder.radius * (std::cos(angle) * u + std::sin(angle) * v);
   };
   std::vector<std::vector<Corner>> faces;

@@ -79,6 +79,23 @@ struct Layout {
   }
 };
 
+/// Few numbers by their ranks, for the branches of a sort would be guessed wrong; many by the library.
+template <class Out>
+void sort_into(Out out, const std::int32_t* numbers, std::size_t count) {
+  constexpr std::size_t few = 24;
+  if (count > few) {
+    std::copy_n(numbers, count, out);
+    std::sort(out, out + static_cast<std::ptrdiff_t>(count));
+    return;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    std::int32_t rank = 0;
+    for (std::size_t m = 0; m < k; ++m) rank += numbers[m] <= numbers[k];
+    for (std::size_t m = k + 1; m < count; ++m) rank += numbers[m] < numbers[k];
+    out[rank] = numbers[k];
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -101,7 +118,8 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
   for (std::size_t i = n; i-- > 0;) {  // backwards through the grains: ids ascend within a cell
     const auto cell = static_cast<std::size_t>(layout.flat(cell_at(i))) + 1;
-    member_[static_cast<std::size_t>(--start_[cell])] = static_cast<std::int32_t>(i);
+    member_[static_cast<std::size_t>(--start_[cell])] = {grains.place(i), grains.radius[i],
+                                                         static_cast<std::int32_t>(i)};
   }
   // After the loop start_[c + 1] is where cell c begins; the end of cell c is the begin of c + 1.
   const auto begin_of = [&](int c) {
@@ -114,24 +132,31 @@ void CellGrid<D>::find(const Grains<D>& grains, const Domain<D>& domain, double 
   };
 
   const auto find_of = [&](std::size_t i, std::vector<std::int32_t>& row, PairNames& found) {
-    row.clear();
+    std::size_t size = 0;
     const auto home = cell_at(i);
     const auto here = grains.place(i);
     const double own = grains.radius[i] + skin;
+    const auto first_other = static_cast<std::int32_t>(grains.independent ? grains.moving : i + 1);
     const auto look = [&](int first, int last) {  // through cells that follow on each other
-      for (std::size_t m = begin_of(first), end = end_of(last); m < end; ++m) {
-        const auto j = static_cast<std::size_t>(member_[m]);
-        if (j <= i || (grains.independent && j < grains.moving)) continue;
-        const auto way = domain.way(here, grains.place(j));
-        const double reach = own + grains.radius[j];
-        if (dot(way, way) < reach * reach) row.push_back(member_[m]);
+      const std::size_t begin = begin_of(first), end = end_of(last);
+      if (row.size() < size + end - begin) row.resize(2 * (size + end - begin));
+      // Each is written, and counts if it is near: a branch would be guessed wrong every third time.
+      for (std::size_t m = begin; m < end; ++m) {
+        const auto& other = member_[m];
+        const auto way = domain.way(here, other.place);
+        const double reach = own + other.radius;
+        row[size] = other.id;
+        size += (other.id >= first_other) & (dot(way, way) < reach * reach);
       }
     };
     layout.for_neighbours(domain, home, look);
+    const auto old_end = static_cast<std::ptrdiff_t>(found.j.size());
+    found.j.resize(found.j.size() + size);
+    const auto begin = found.j.begin() + old_end;
+    sort_into(begin, row.data(), size);
     // with fewer than three periodic cells a neighbour can appear twice
-    std::sort(row.begin(), row.end());
-    if (layout.narrow(domain)) row.erase(std::unique(row.begin(), row.end()), row.end());
-    for (const auto j : row) found.add(i, static_cast<std::size_t>(j));
+    if (layout.narrow(domain)) found.j.erase(std::unique(begin, found.j.end()), found.j.end());
+    found.i.resize(found.j.size(), static_cast<std::int32_t>(i));
   };
   row_.resize(team.size());
   parts_.resize(team.size() - 1);

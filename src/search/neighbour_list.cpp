@@ -103,12 +103,15 @@ void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
   const auto gather = [&](Part range, PairList& pairs) {
     pairs.clear();
     pairs.reserve(far_.size() / 2);  // whoever gathers: the parts of a list may grow into each other's share
-    for (std::size_t p = range.begin; p < range.end; ++p) {
+    const auto is_near = [&](std::size_t p) {
       const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
       const auto way = domain_.way(grains.place(i), grains.place(j));
       const double reach = grains.radius[i] + grains.radius[j];
-      if (dot(way, way) < (reach + skins_.near) * (reach + skins_.near)) pairs.add(grains, i, j);
-    }
+      return dot(way, way) < (reach + skins_.near) * (reach + skins_.near);
+    };
+    for_those(range, is_near, [&](std::size_t p) {
+      pairs.add(grains, static_cast<std::size_t>(far_.i[p]), static_cast<std::size_t>(far_.j[p]));
+    });
   };
   parts_.resize(team.size() - 1);
   team.split(far_.size(), [&](Part range, std::size_t k) { gather(range, k == 0 ? near_ : parts_[k - 1]); });

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -62,6 +64,23 @@ struct PairList : PairNames {
   }
 };
 
+/// keep(p) for every p of the range of which test(p) holds, in their order. The tests run ahead by a block, for a branch
+/// at each would be guessed wrong every other time.
+template <class Test, class Keep>
+void for_those(Part range, const Test& test, const Keep& keep) {
+  constexpr std::size_t block = 256;
+  std::array<std::uint32_t, block> held;
+  for (std::size_t begin = range.begin; begin < range.end; begin += block) {
+    const auto size = std::min(block, range.end - begin);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      held[count] = static_cast<std::uint32_t>(k);
+      count += test(begin + k) ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < count; ++k) keep(begin + held[k]);
+  }
+}
+
 /// All pairs with a gap of less than `skin` between their surfaces, found through a grid of cells: O(N).
 template <int D>
 class CellGrid {
@@ -70,8 +89,15 @@ class CellGrid {
             Team& team = Team::alone());
 
  private:
+  /// What a look at a neighbour needs, side by side in memory.
+  struct Member {
+    Vec<D> place;
+    double radius;
+    std::int32_t id;
+  };
   // kept, so that a rebuild allocates nothing new
-  std::vector<std::int32_t> start_, member_;
+  std::vector<std::int32_t> start_;
+  std::vector<Member> member_;                  // by cell, and by id within a cell
   std::vector<std::vector<std::int32_t>> row_;  // for each of the team
   std::vector<PairNames> parts_;
 };

@@ -246,6 +246,8 @@ TEST_CASE("a wall is drawn where it crosses the room") {
   CHECK(staves->GetNumberOfPolys() > 30);
   CHECK(staves->GetBounds()[4] == Approx(3).margin(1e-9));
   CHECK(staves->GetBounds()[5] == Approx(7).margin(1e-9));
+  CHECK(staves->GetBounds()[2] == -3);  // as long as the room
+  CHECK(staves->GetBounds()[3] == 3);
 }
 
 TEST_CASE("files are binary, compressed, and the same bytes each time") {

@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
+#include "engines/kind/deep_start.hpp"
 
 namespace chute::contact {
 namespace {
@@ -52,6 +53,7 @@ ContactEngine<D>::ContactEngine(Grains<D> grains, const ContactSetup<D>& setup)
   bodies_.middle.resize(moving), bodies_.velocity.resize(moving), bodies_.spin.resize(moving);
   for (auto& f : force_) f.assign(grains_.size(), 0);
   wrap_into(setup_.domain, grains_);
+  engines::refuse_deep_start<D>(grains_, setup_, engines::deepest_that_is_pushed_apart);
   start_place_ = unwrapped_places<D>(this->grains());
   account_.start = energy().stored();
 }

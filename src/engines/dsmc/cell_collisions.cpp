@@ -54,11 +54,6 @@ Vec<D> any_direction(double u, double w) {
 }
 
 template <int D>
-laws::Collider<D> collider(const Grains<D>& grains, std::size_t i) {
-  return {grains.speed(i), grains.turning(i), grains.radius[i], grains.inverse_mass[i],
-          grains.inverse_inertia[i]};
-}
-template <int D>
 void put_back(Grains<D>& grains, std::size_t i, const laws::Collider<D>& c) {
   for (int k = 0; k < D; ++k) grains.velocity[static_cast<std::size_t>(k)][i] = c.velocity[k];
   for (std::size_t k = 0; k < turns<D>; ++k) grains.spin[k][i] = c.spin[static_cast<int>(k)];
@@ -80,6 +75,29 @@ CellCollisions<D>::CellCollisions(const Grains<D>& grains, const DsmcSetup<D>& s
   const auto [least, most] = std::minmax_element(grains.radius.begin(), end);
   widest_ = 2 * *most;
   equal_ = *least == *most;
+  alike_ = equal_;
+  for (std::size_t i = 1; i < grains.moving; ++i)
+    alike_ = alike_ && grains.inverse_mass[i] == grains.inverse_mass[0] &&
+             grains.inverse_inertia[i] == grains.inverse_inertia[0];
+}
+
+/// Asks for what the cell after next will need: its grains lie anywhere in memory.
+template <int D>
+void CellCollisions<D>::fetch_ahead(const Grains<D>& grains, const GasCells<D>& cells,
+                                    std::size_t cell) const {
+  constexpr std::size_t ahead = 2;
+  if (cell + ahead >= cells.count()) return;
+  for (const auto i : cells.members(cell + ahead)) {
+    for (const auto& v : grains.velocity) __builtin_prefetch(&v[i], 1);
+    if (!rough_) continue;
+    for (const auto& w : grains.spin) __builtin_prefetch(&w[i], 1);
+  }
+}
+
+template <int D>
+laws::Collider<D> CellCollisions<D>::collider(const Grains<D>& grains, std::size_t i, const Vec<D>& v) const {
+  const std::size_t like = alike_ ? 0 : i;  // which is at hand
+  return {v, {}, grains.radius[like], grains.inverse_mass[like], grains.inverse_inertia[like]};
 }
 
 template <int D>
@@ -102,6 +120,7 @@ Tally CellCollisions<D>::collide(Grains<D>& grains, const GasCells<D>& cells, st
 template <int D>
 void CellCollisions<D>::in_cell(Grains<D>& grains, const GasCells<D>& cells, std::size_t cell,
                                 std::uint64_t step, Buffer& buffer, Tally& tally) const {
+  fetch_ahead(grains, cells, cell);
   const auto ids = cells.members(cell);
   const std::size_t N = ids.size();
   if (N < 2) return;
@@ -140,10 +159,7 @@ void CellCollisions<D>::in_cell(Grains<D>& grains, const GasCells<D>& cells, std
     if (!equal_) bound /= std::pow((grains.radius[ids[a]] + grains.radius[ids[b]]) / widest_, D - 1);
     if (!(square > bound * bound)) continue;
     const Vec<D> n = facing_direction<D>((1 / std::sqrt(square)) * relative, words.third(), words.fourth());
-    laws::Collider<D> i{
-        v[a], {}, grains.radius[ids[a]], grains.inverse_mass[ids[a]], grains.inverse_inertia[ids[a]]};
-    laws::Collider<D> j{
-        v[b], {}, grains.radius[ids[b]], grains.inverse_mass[ids[b]], grains.inverse_inertia[ids[b]]};
+    auto i = collider(grains, ids[a], v[a]), j = collider(grains, ids[b], v[b]);
     if (rough_) i.spin = spin[a], j.spin = spin[b];
     const auto done = setup_.contact.tangential(n, setup_.contact.restitution, i, j);
     v[a] = i.velocity, v[b] = j.velocity;
@@ -207,7 +223,8 @@ void CellCollisions<D>::with_neighbours(Grains<D>& grains, const GasCells<D>& ce
     double chance = approach / v_max * crowding(partner_cell) * static_cast<double>(partners.size()) / most;
     if (!equal_) chance *= std::pow((grains.radius[a] + grains.radius[b]) / widest_, D - 1);
     if (!(more.first() < chance)) continue;
-    auto i = collider(grains, a), j = collider(grains, b);
+    auto i = collider(grains, a, grains.speed(a)), j = collider(grains, b, grains.speed(b));
+    i.spin = grains.turning(a), j.spin = grains.turning(b);
     const auto done = setup_.contact.tangential(n, setup_.contact.restitution, i, j);
     put_back(grains, a, i), put_back(grains, b, j);
     ++tally.collisions;

@@ -29,6 +29,7 @@ class CellCollisions {
   bool rough_;         // spins matter
   double widest_ = 1;  // twice the largest radius
   bool equal_ = true;  // all radii
+  bool alike_ = true;  // and masses and moments of inertia
   struct Chunk {
     Tally tally;
     std::vector<Collision> kept;
@@ -42,6 +43,8 @@ class CellCollisions {
   };
   std::vector<Buffer> buffers_;  // of each thread
 
+  void fetch_ahead(const Grains<D>& grains, const GasCells<D>& cells, std::size_t cell) const;
+  laws::Collider<D> collider(const Grains<D>& grains, std::size_t i, const Vec<D>& v) const;
   void in_cell(Grains<D>& grains, const GasCells<D>& cells, std::size_t cell, std::uint64_t step,
                Buffer& buffer, Tally& tally) const;
   void with_neighbours(Grains<D>& grains, const GasCells<D>& cells, std::size_t cell, std::uint64_t step,

@@ -13,6 +13,7 @@
 #include "engines/hard/first_contact.hpp"
 #include "engines/hard/thermal_wall.hpp"
 #include "engines/hard/wall_flight.hpp"
+#include "engines/kind/deep_start.hpp"
 
 namespace chute::event {
 namespace {
@@ -28,8 +29,8 @@ constexpr double collapse_time = 1e-3;
 /// error of this engine, not of the scene.
 constexpr double missed = 1e-6;
 
-/// Grains may overlap by this part of R_i + R_j at the start: rounding of places that were meant to touch.
-constexpr double touching = 1e-9;
+/// Grains may overlap by this part of the smaller radius at the start: rounding of places that were meant to touch.
+constexpr double touching = 2e-9;
 
 /// Lower bound of the rebound in a lasting contact, in units of g t_c. The bounce then lasts at least t_c/2
 /// on a level bead, safely within the train; 1/2 would end it.
@@ -80,22 +81,7 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
   for (std::size_t i = 0; i < moving; ++i) fastest = std::max(fastest, norm(flights_[i].velocity));
   still_ = collapse_time * (g > 0 ? std::sqrt(reach_ / g) : reach_ / fastest);
   lay_out();
-  for (std::size_t i = 0; i < moving; ++i)
-    for (const auto& wall : setup_.walls)
-      if (const double height = wall.nearest(flights_[i].place, 0, setup_.domain).height;
-          height < flights_[i].radius * (1 - touching))
-        throw WorkError(fmt::format("grain {} overlaps a wall by {:.3g} at the start; hard grains cannot", i,
-                                    flights_[i].radius - height));
-  for (std::size_t i = 0; i < moving; ++i)
-    for (const Near& near : near_.of(i)) {
-      const auto j = static_cast<std::size_t>(near.other);
-      const double distance = norm(setup_.domain.way(flights_[i].place, flights_[j].place));
-      const double reach = flights_[i].radius + flights_[j].radius;
-      if (distance < reach * (1 - touching))
-        throw InputError(
-            fmt::format("grains.start: grains {} and {} overlap by {:.3g} at the start; hard grains cannot",
-                        i, j, reach - distance));
-    }
+  engines::refuse_deep_start<D>(grains_, setup_, touching);
 }
 
 /// When two grains meet, if not surely later than `limit`. Computed from the later of their last collisions,

@@ -35,8 +35,10 @@ struct Flight {
     std::array<int, D> off{};
     for (int k = 0; k < D; ++k) {
       if (!domain.periodic(k)) continue;
+      const double along = r[k] - domain.lower[k];
+      if (along >= 0 && along < domain.length[k]) continue;
       const auto axis = static_cast<std::size_t>(k);
-      off[axis] = static_cast<int>(std::floor((r[k] - domain.lower[k]) / domain.length[k]));
+      off[axis] = static_cast<int>(std::floor(along / domain.length[k]));
       r[k] -= off[axis] * domain.length[k];
       count[axis] += off[axis];
     }

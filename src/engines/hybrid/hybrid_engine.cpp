@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
+#include "engines/kind/deep_start.hpp"
 
 namespace chute::hybrid {
 namespace {
@@ -57,6 +58,7 @@ HybridEngine<D>::HybridEngine(Grains<D> grains, const HybridSetup<D>& setup)
     for (std::size_t k = 0; k < D; ++k) f.wraps[k] = grains_.wraps[k][i];
     hard::Flight<D>::wrap(f.place, f.wraps, setup_.domain);
   }
+  engines::refuse_deep_start<D>(grains_, setup_, engines::deepest_that_is_pushed_apart);
   for (auto& f : force_) f.assign(grains_.size(), 0);
   show();
   start_place_ = unwrapped_places<D>(this->grains());
@@ -136,12 +138,15 @@ void HybridEngine<D>::find_pairs(Nearby& nearby, double margin, double end) {
   }
   const auto& candidates = nearby.list.near(grown, *team_).pairs;
   pairs_.clear();
-  for (std::size_t p = 0; p < candidates.size(); ++p) {
-    const auto i = static_cast<std::size_t>(candidates.i[p]), j = static_cast<std::size_t>(candidates.j[p]);
-    const Vec<D> way = setup_.domain.way(grown.place(i), grown.place(j));
-    const double reach = grains_.radius[i] + grains_.radius[j] + margin;
-    if (dot(way, way) < reach * reach) pairs_.add(i, j);
-  }
+  const auto first = [&](std::size_t p) { return static_cast<std::size_t>(candidates.i[p]); };
+  const auto second = [&](std::size_t p) { return static_cast<std::size_t>(candidates.j[p]); };
+  const auto may_meet = [&](std::size_t p) {
+    const Vec<D> way = setup_.domain.way(grown.place(first(p)), grown.place(second(p)));
+    const double reach = grains_.radius[first(p)] + grains_.radius[second(p)] + margin;
+    return dot(way, way) < reach * reach;
+  };
+  search::for_those({0, candidates.size()}, may_meet,
+                    [&](std::size_t p) { pairs_.add(first(p), second(p)); });
 }
 
 template <int D>

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
+#include "engines/kind/deep_start.hpp"
 
 namespace chute::soft {
 template <int D>
@@ -40,6 +41,7 @@ ClumpEngine<D>::ClumpEngine(Grains<D> bodies, Clumps<D> clumps, const SoftSetup<
     start_place_[k].assign(bodies_.position[k].begin(),
                            bodies_.position[k].begin() + static_cast<std::ptrdiff_t>(bodies_.moving));
   forces(0);
+  engines::refuse_deep_start<D>(spheres_, setup_, setup.deepest_overlap, body_);
   integrator_.start(bodies_, body_sums_);
   account_.start = energy().stored();
 }

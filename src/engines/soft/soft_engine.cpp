@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
 #include "core/not_a_number.hpp"
+#include "engines/kind/deep_start.hpp"
 
 namespace chute::soft {
 template <int D>
@@ -32,6 +33,7 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
   for (int k = 0; k < D; ++k)
     start_place_[k].assign(grains_.position[k].begin(),
                            grains_.position[k].begin() + static_cast<std::ptrdiff_t>(grains_.moving));
+  engines::refuse_deep_start<D>(grains_, setup_, setup.deepest_overlap);
   forces(0);
   integrator_.start(grains_, sums_);
   account_.start = energy().stored();
