@@ -79,7 +79,8 @@ std::vector<TableText> run_tables() {
         column("projection_work", energy,
                "potential energy put in by moving pressed hard grains out of each other"),
         column("energy_in", energy, "[inflow], [outflow]: energy that grains brought which came in"),
-        column("energy_out", energy, "energy that grains took away which left, that of their contacts among it"),
+        column("energy_out", energy,
+               "energy that grains took away which left, that of their contacts among it"),
         column(
             "residual", energy,
             "what the account does not explain: works − change of the stored energies − losses; < 0: energy came from nowhere"),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "core/sphere.hpp"
 
@@ -88,6 +89,14 @@ std::optional<Refusal> refusal_of_materials(const Scene& scene) {
     for (const auto& name : scene.contact.between[k].materials)
       if (auto wrong = unknown(name, fmt::format("contact.between[{}].materials", k))) return wrong;
   return {};
+}
+
+void check_material(const Scene& scene, std::size_t grain, int material) {
+  const auto known = static_cast<int>(scene.materials.size());
+  if (known > 0 && (material < 0 || material >= known))
+    throw InputError(
+        fmt::format("grains.start: grain {} is of material {}, counted from 0, and there are {} [[material]]",
+                    grain, material, known));
 }
 
 }  // namespace chute::scene

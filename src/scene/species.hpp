@@ -10,6 +10,9 @@ double density_of(const Scene& scene, int material);
 /// The number of a material by its name; without one the first.
 int material_of(const Scene& scene, const std::optional<std::string>& name);
 
+/// InputError if a start gives a grain a material that the scene does not have; without materials nobody asks.
+void check_material(const Scene& scene, std::size_t grain, int material);
+
 /// What the scene says of a mean grain: of all species, each with its share. Nothing where it does not say the grains.
 struct MeanGrain {
   double diameter, mass;

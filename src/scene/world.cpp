@@ -92,12 +92,7 @@ std::vector<starts::Launch> launches_of(const Scene& scene, const starts::Openin
                                                                                         : materials_of(scene);
   for (std::size_t i = 0; i < materials.size(); ++i)
     if (launches[i].material == 0) launches[i].material = materials[i];
-  const auto known = static_cast<int>(scene.materials.size());
-  for (std::size_t i = 0; i < launches.size() && known > 0; ++i)
-    if (launches[i].material < 0 || launches[i].material >= known)
-      throw InputError(fmt::format(
-          "grains.start: grain {} is of material {}, counted from 0, and there are {} [[material]]", i,
-          launches[i].material, known));
+  for (std::size_t i = 0; i < launches.size(); ++i) check_material(scene, i, launches[i].material);
   for (auto& launch : launches)
     if (!launch.mass) launch.mass = sphere_mass(density_of(scene, launch.material), launch.radius);
   return launches;
