@@ -5,6 +5,8 @@
 
 using namespace chute::experiments;
 
+namespace column_tests {
+
 namespace {
 
 /// The same column of hard grains, event by event: the truth for t_0 ≫ t_n. Places less the diameters.
@@ -58,3 +60,5 @@ TEST_CASE("A column of one grain has e_tot = e_n; hard columns are those of the 
     CHECK(soft == Approx(hard).epsilon(2e-3));
   }
 }
+
+}  // namespace column_tests

@@ -6,6 +6,8 @@
 using namespace chute;
 using namespace chute::experiments;
 
+namespace cylinder_tests {
+
 TEST_CASE("(3.26) to (3.31) solve the equations of motion and respect Coulomb's law") {
   for (const double push : {0.05, 0.2, 0.4, 0.7, 0.8, 2.0}) {
     const auto s = steady_cylinder(push, 0.5, 0.25);
@@ -95,3 +97,5 @@ TEST_CASE("A rigid cylinder that is pushed less goes over to rolling when its sl
     }
   }
 }
+
+}  // namespace cylinder_tests

@@ -4,6 +4,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace figures_chapter_1_2_tests {
+
 TEST_CASE("Quick figures have the same panels and series as full ones") {
   for (const auto& id : law_figures) {
     INFO(id);
@@ -83,3 +85,5 @@ TEST_CASE("fig-2-15 shows detachment for small gaps and N^2 collisions for wide 
   CHECK(e.at(10) < 0.25);
   CHECK(e.at(100) == Approx(e.at(10)).epsilon(1e-2));
 }
+
+}  // namespace figures_chapter_1_2_tests

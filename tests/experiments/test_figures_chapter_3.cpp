@@ -3,6 +3,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace figures_chapter_3_tests {
+
 namespace {
 
 double slope(const Points& p, double low, double high) {
@@ -165,3 +167,5 @@ TEST_CASE("table-3-1 has the steady state: a to 5 digits, b wrong after the chan
   CHECK(rows("c", "0.2").y_err[0] == Approx(0.275 - 2.0 / 15).epsilon(1e-3));  // rings from where it slid
   CHECK(rows("c", "0.8").y_err[0] < 1e-5);
 }
+
+}  // namespace figures_chapter_3_tests

@@ -6,6 +6,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace never_gains_tests {
+
 namespace {
 
 constexpr double k = 1e6;
@@ -106,3 +108,5 @@ TEST_CASE("Near-grazing impacts on a fixed grain with mu = 0.5") {
       }
   WARN("largest relative gain: " << worst);
 }
+
+}  // namespace never_gains_tests

@@ -7,6 +7,8 @@ using namespace chute;
 using namespace chute::experiments;
 using chute::test::odeint_impact;
 
+namespace normal_impacts_tests {
+
 namespace {
 
 constexpr double m_eff = Acetate::reduced_mass, k = Acetate::stiffness, K = Acetate::hertz_stiffness;
@@ -110,3 +112,5 @@ TEST_CASE("What a normal impact loses is what the account says, with memory or w
       CHECK(outcome.shear_loss == 0);
     }
 }
+
+}  // namespace normal_impacts_tests

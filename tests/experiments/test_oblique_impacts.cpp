@@ -8,6 +8,8 @@
 using namespace chute;
 using namespace chute::experiments;
 
+namespace oblique_impacts_tests {
+
 namespace {
 
 constexpr double m_eff = Acetate::reduced_mass, k = Acetate::stiffness, damping = 2.06, mu = 0.25;
@@ -283,3 +285,5 @@ TEST_CASE("An impact in a plane is the same in 3D as in 2D") {
     CHECK(b.psi_after == Approx(a.psi_after).margin(1e-9));
   }
 }
+
+}  // namespace oblique_impacts_tests

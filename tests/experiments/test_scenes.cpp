@@ -16,6 +16,8 @@ using namespace chute;
 using namespace chute::test;
 using namespace chute::experiments;
 
+namespace scenes_tests {
+
 namespace {
 
 const std::vector<std::string> names{"impact-normal", "impact-oblique", "column", "brake-failure",
@@ -224,3 +226,5 @@ TEST_CASE("compare-laws draws two laws in each panel") {
              }),
              Catch::Contains("did you mean \"psi_i\"?") || Catch::Contains("did you mean \"psi_f\"?"));
 }
+
+}  // namespace scenes_tests

@@ -5,6 +5,8 @@
 
 using namespace chute;
 
+namespace ball_line_tests {
+
 namespace {
 
 /// Mean velocity of a ball that hits without restoring and sticks to what it rolls on: thesis 4.2.5
@@ -51,3 +53,5 @@ TEST_CASE("a ball on a line of balls runs at the corrected closed form") {
       CHECK(v_x == Approx(expected).epsilon(0.02));
     }
 }
+
+}  // namespace ball_line_tests

@@ -11,6 +11,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace cells_tests {
+
 namespace {
 
 const char* gas = R"(
@@ -133,3 +135,5 @@ cells = { every = 20, width = 5 }
   CHECK_THROWS_WITH(scene::parse_scene(text + "avalanches = {}\n", "lattice.toml"),
                     Catch::Contains("tells of no avalanches"));
 }
+
+}  // namespace cells_tests

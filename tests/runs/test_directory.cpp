@@ -7,6 +7,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace directory_tests {
+
 namespace {
 
 scene::Scene tiny(std::vector<std::string> settings = {}) {
@@ -139,3 +141,5 @@ TEST_CASE("a time step too long for the forces ends as an error, not as a file f
   for (const auto& [name, text] : tree(folder / "run"))
     if (name.ends_with(".csv")) CHECK(text.find("nan") == text.npos);
 }
+
+}  // namespace directory_tests

@@ -10,6 +10,8 @@ using namespace chute;
 using namespace chute::test;
 using measure::Verdict;
 
+namespace flow_tests {
+
 namespace {
 
 /// The flow of a run of scenes/ball-2d.toml with changes.
@@ -110,3 +112,5 @@ TEST_CASE("a run without a flow to tell of is refused") {
         std::string::npos);
   CHECK_FALSE(message<InputError>([&] { run::read_flow(folder / "nowhere"); }).empty());
 }
+
+}  // namespace flow_tests

@@ -11,6 +11,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace growth_tests {
+
 namespace {
 
 /// A small flow whose outputs say all their times, so that no default follows from the duration.
@@ -195,3 +197,5 @@ TEST_CASE("a run can be watched: its tables and frames.pvd are as of some second
   CHECK(time > 0);
   CHECK(part < 0.5);
 }
+
+}  // namespace growth_tests

@@ -12,6 +12,8 @@
 
 using namespace chute;
 
+namespace materials_tests {
+
 namespace {
 
 /// e_n and μ of two materials, as the scene below gives them.
@@ -414,3 +416,5 @@ TEST_CASE("a pair's contact time is that of its own mean grains") {
   // m_eff of two equal ones is half of m, and t_n goes as its root at equal restitution
   CHECK(fact("t_n b-b") / fact("t_n a-a") == Approx(std::sqrt(30 / (6 / std::numbers::pi))));
 }
+
+}  // namespace materials_tests

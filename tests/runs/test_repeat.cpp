@@ -9,6 +9,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace repeat_tests {
+
 namespace {
 
 /// A small flow that writes every kind of file.
@@ -139,3 +141,5 @@ TEST_CASE("a finished run that is resumed stays as it is") {
   CHECK_FALSE(run::is_finished_run_of(folder / "a", flow()));
   CHECK_FALSE(run::is_finished_run_of(folder / "b", flow()));
 }
+
+}  // namespace repeat_tests

@@ -12,6 +12,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace statistical_tests {
+
 namespace {
 
 std::vector<std::string> small_packing() {
@@ -183,3 +185,5 @@ TEST_CASE(
                     Catch::Contains("wall[0].normal: engine.method = \"restructuring\" knows no "
                                     "walls but a level floor"));
 }
+
+}  // namespace statistical_tests

@@ -11,6 +11,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace three_dimensions_tests {
+
 namespace {
 
 double mean_velocity(const scene::Scene& scene, double from, double to) {
@@ -335,3 +337,5 @@ TEST_CASE("the energy account of a ball that runs down a plane of beads closes")
     CHECK(account.normal_loss > account.shear_loss);  // thesis 4.3.4.1: most dissipation is normal
   }
 }
+
+}  // namespace three_dimensions_tests

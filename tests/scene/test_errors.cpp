@@ -9,6 +9,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace errors_tests {
+
 namespace {
 
 std::string refused(const std::string& text, const std::vector<std::string>& settings = {}) {
@@ -186,3 +188,5 @@ TEST_CASE("grains that do not fit are refused at the key to change") {
     CHECK(says.starts_with("scene.toml"));  // a wrong file is named
   }
 }
+
+}  // namespace errors_tests

@@ -12,6 +12,8 @@
 using namespace chute;
 using chute::test::example;
 
+namespace materials_tests {
+
 namespace {
 
 scene::Scene parse(const std::vector<std::string>& settings) {
@@ -123,3 +125,5 @@ TEST_CASE("a scene with materials and laws by pair reads back the same") {
   INFO(text);
   CHECK(to_toml(scene::parse_scene(text, "resolved.toml")) == text);
 }
+
+}  // namespace materials_tests

@@ -14,6 +14,8 @@ using namespace chute;
 using namespace chute::scene;
 using namespace chute::test;
 
+namespace scene_tests {
+
 namespace {
 Scene parse(const std::string& text, const std::vector<std::string>& settings = {}) {
   return parse_scene(text, "scene.toml", settings);
@@ -243,3 +245,5 @@ TEST_CASE("what a scene says is never chosen otherwise") {
       "[run]\nduration=10\n[contact.normal]\nrestitution=0.5\n");
   CHECK(bare.chosen.size() == 5);  // seed and units, too
 }
+
+}  // namespace scene_tests

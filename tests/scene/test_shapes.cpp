@@ -8,6 +8,8 @@
 
 using namespace chute;
 
+namespace shapes_tests {
+
 namespace {
 
 scene::Scene shaped(const std::string& shapes, const std::vector<std::string>& settings = {}) {
@@ -105,3 +107,5 @@ TEST_CASE("the step resolves the contact of two tips") {
         Approx(0.5 * std::pow(2 * smallest, 3) / (1 + at * at / form.gyration[0])).epsilon(1e-12));
   CHECK(rod.engine->step(scene::setting_of(rod)) < 0.9 * round.engine->step(scene::setting_of(round)));
 }
+
+}  // namespace shapes_tests

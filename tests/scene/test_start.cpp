@@ -6,6 +6,8 @@
 using namespace chute;
 using namespace chute::test;
 
+namespace start_tests {
+
 namespace {
 World<2> start(const std::vector<std::string>& settings = {}) {
   return scene::make_world<2>(scene::parse_scene(example, "scene.toml", settings));
@@ -101,3 +103,5 @@ TEST_CASE("a single grain starts above the first gap, without spin") {
   CHECK(made.grains.velocity[1][0] == 0.02);
   CHECK(made.grains.spin[0][0] == 0);
 }
+
+}  // namespace start_tests

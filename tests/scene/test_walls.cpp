@@ -7,6 +7,8 @@
 
 using namespace chute;
 
+namespace walls_tests {
+
 namespace {
 
 /// A scene with these lines as its walls.
@@ -133,3 +135,5 @@ TEST_CASE("an incline tilts in time, if the method can") {
   CHECK_THAT(wrong("incline.angle.then", "\"back\""),
              Catch::Contains("incline.angle.then: \"back\" is not an angle"));
 }
+
+}  // namespace walls_tests

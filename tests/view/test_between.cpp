@@ -6,6 +6,8 @@
 
 using namespace chute;
 
+namespace between_tests {
+
 namespace {
 
 read::GrainFrame frame_of(double x, std::vector<double> quaternion, double id_first = 0) {
@@ -74,3 +76,5 @@ TEST_CASE(
   view::move_ends(elsewhere, a, now);
   CHECK(elsewhere[0].from == Eigen::Vector3d(5.01, 2, 0));
 }
+
+}  // namespace between_tests

@@ -10,6 +10,8 @@
 using namespace chute;
 using Eigen::Vector3d;
 
+namespace camera_tests {
+
 namespace {
 
 view::FrameStyle in_plane() {
@@ -204,3 +206,5 @@ TEST_CASE("Copies reach as far as is asked") {
   CHECK(discs(1.2) == 3);
   CHECK(discs(2.9) == 7);  // the middles of the outer ones lie 2.5 periods beyond the end
 }
+
+}  // namespace camera_tests

@@ -12,6 +12,8 @@ using namespace chute;
 using Catch::Matchers::Contains;
 using Eigen::Vector3d;
 
+namespace extent_tests {
+
 namespace {
 
 view::Survey survey_of(const std::vector<read::GrainFrame>& frames, const view::FrameStyle& style = {}) {
@@ -175,3 +177,5 @@ TEST_CASE("Without speeds, a foreign frame is coloured by its species, and our o
   style.color = "type";
   CHECK(survey_of({frame}, style).categories.empty());
 }
+
+}  // namespace extent_tests

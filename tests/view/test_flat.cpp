@@ -11,6 +11,8 @@ using namespace chute;
 using grains::bare;
 using grains::picture;
 
+namespace flat_tests {
+
 namespace {
 
 struct Blob {
@@ -258,3 +260,5 @@ TEST_CASE("Discs of one body are drawn as one") {
   frame.arrays.back().values[1] = 8;
   CHECK(across(picture(frame, style)) > 0);
 }
+
+}  // namespace flat_tests

@@ -6,6 +6,8 @@
 
 using namespace chute;
 
+namespace kinds_tests {
+
 namespace {
 
 double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
@@ -59,3 +61,5 @@ TEST_CASE("Kinds look different to all eyes, from each other, the bed and the gr
         }
   }
 }
+
+}  // namespace kinds_tests

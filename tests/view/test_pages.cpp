@@ -9,6 +9,8 @@
 
 using namespace chute;
 
+namespace pages_tests {
+
 namespace {
 
 /// Both, by the same survey.
@@ -80,3 +82,5 @@ TEST_CASE("A list that is put on a page twice as large is the list at twice the 
   const auto same = image::compare(plot::rasterise_by_cairo(large, 72), plot::rasterise_by_cairo(page, 144));
   CHECK(same.worst <= 2);
 }
+
+}  // namespace pages_tests

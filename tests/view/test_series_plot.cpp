@@ -12,6 +12,8 @@ using namespace chute::view;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
+namespace series_plot_tests {
+
 namespace {
 
 TimeSeries straight() {
@@ -88,3 +90,5 @@ TEST_CASE("A place too small for axes is refused") {
   const auto series = straight();
   CHECK_THROWS_WITH(SeriesPlot(series, "SI", Background::white, {0, 0, 30, 20}, 12), Contains("too small"));
 }
+
+}  // namespace series_plot_tests

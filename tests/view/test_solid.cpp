@@ -12,6 +12,8 @@
 using namespace chute;
 using Eigen::Vector3d;
 
+namespace solid_tests {
+
 namespace {
 
 view::FrameStyle small() {
@@ -342,3 +344,5 @@ TEST_CASE("A camera that follows a grain sees it in one place, and no jump at th
   const double place = top(0);
   for (std::size_t i = 1; i < 12; ++i) CHECK(top(i) == Approx(place).margin(1.5));
 }
+
+}  // namespace solid_tests

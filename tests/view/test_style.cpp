@@ -11,6 +11,8 @@
 using namespace chute;
 using Catch::Matchers::Contains;
 
+namespace style_tests {
+
 TEST_CASE("Colour maps: published ends, even brightness, reversed") {
   const view::ColorMap viridis("viridis"), back("viridis_r");
   CHECK(viridis.at(0) == view::Rgb{.267004, .004874, .329415});
@@ -192,3 +194,5 @@ TEST_CASE("A picture laid over another") {
   CHECK(bottom.pixel(1, 0)[0] == 200);
   CHECK(bottom.pixel(1, 0)[3] == 51);
 }
+
+}  // namespace style_tests

@@ -7,6 +7,8 @@
 
 using namespace chute;
 
+namespace survey_tests {
+
 namespace {
 
 view::Survey survey_of(const std::vector<read::GrainFrame>& frames, const view::FrameStyle& style = {}) {
@@ -134,3 +136,5 @@ TEST_CASE(
   frame.own = true, frame.dimensions = 3;
   CHECK(view::find_field("angular_velocity:z", frame).values(frame)[0] == -3);
 }
+
+}  // namespace survey_tests

@@ -6,6 +6,8 @@
 using namespace chute;
 using Eigen::Vector3d;
 
+namespace walls_tests {
+
 namespace {
 
 /// A pipe along y of that many staves, as files have it: faces that share corners.
@@ -75,3 +77,5 @@ TEST_CASE("In the plane a drum is seen as the picture is turned") {
   CHECK(survey.turned.sizes().x() == Approx(4).epsilon(0.02));
   CHECK(survey.turned.sizes().y() == Approx(4).epsilon(0.02));
 }
+
+}  // namespace walls_tests
