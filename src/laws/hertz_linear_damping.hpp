@@ -14,7 +14,7 @@ class HertzLinearDamping {
  public:
   static constexpr std::string_view name = "hertz-linear-damping";
   static constexpr UnitName stiffness_unit = hertz_stiffness_unit, damping_unit{"kg/s", "m sqrt(g/d)"};
-  static constexpr bool hertz_spring = true;
+  static constexpr bool hertz_spring = true, acts_at_once = true;
   struct Keys;
 
   /// γ_n in kg/s, multiplied by m_eff with the mass conventions `damping` and `both`.
@@ -29,7 +29,7 @@ class HertzLinearDamping {
 
   NormalForce operator()(double xi, double dxi, Pair p) const {
     const double viscous = damping_(p) * dxi;
-    return {elastic_(xi, dxi, p).total + viscous, viscous * dxi};
+    return {elastic_(xi, dxi, p).total + viscous, viscous * dxi, viscous};
   }
   double energy(double xi, Pair p) const { return elastic_.energy(xi, p); }
   NormalImpact impact(double speed, Pair p) const {

@@ -24,6 +24,7 @@ class SpringDashpot {
  public:
   static constexpr std::string_view name = "spring-dashpot";
   static constexpr UnitName stiffness_unit = linear_stiffness_unit, damping_unit{"kg/s", "m sqrt(g/d)"};
+  static constexpr bool acts_at_once = true, linear_spring = true;
   struct Keys;
 
   static SpringDashpot from_restitution(double stiffness, double e_n, bool attraction = true) {
@@ -52,7 +53,7 @@ class SpringDashpot {
   /// F_n of a contact with overlap `xi` that closes at the rate `dxi` = dξ/dt = −v_n.
   NormalForce operator()(double xi, double dxi, Pair p) const {
     const double viscous = damping(p) * dxi;
-    return {stiffness(p) * xi + viscous, viscous * dxi};
+    return {stiffness(p) * xi + viscous, viscous * dxi, viscous};
   }
 
   /// Energy stored at overlap `xi`.

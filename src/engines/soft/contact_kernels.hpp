@@ -6,6 +6,7 @@
 #include "core/grains.hpp"
 #include "core/kernel.hpp"
 #include "core/team.hpp"
+#include "engines/soft/contact_ends.hpp"
 #include "engines/soft/contacts.hpp"
 #include "engines/soft/law_table.hpp"
 #include "search/coarse_places.hpp"
@@ -145,27 +146,54 @@ struct GeometryKernel {
   }
 };
 
-/// `Choice` says which law a contact has (LawTable).
-template <class Choice>
+/// Laws whose force is there at once when a contact begins, and those with a linear spring beside it: see EndWeights.
+template <class Law>
+constexpr bool acts_at_once = requires {
+  Law::acts_at_once;
+};
+template <class Law>
+constexpr bool linear_spring = requires {
+  Law::linear_spring;
+};
+
+/// `Choice` says which law a contact has (LawTable). Ends of contacts are weighted if `Weighted`.
+template <class Choice, bool Weighted>
 struct NormalKernel {
   Choice choice;
+  EndWeights ends;
   double least;  // the force is clipped there: 0 without attraction, else −∞
   const double *overlap, *closing, *m_eff, *r_eff;
   Part range;
-  double *force, *loss;
+  double *force, *loss, *weight;
 
   void operator()() const {
     const Choice law = choice;
+    const EndWeights near_ends = ends;
     const double floor = least;
     const auto *xi = overlap, *dxi = closing, *m = m_eff, *R = r_eff;
     const auto [begin, end] = range;
-    auto *force_out = force, *loss_out = loss;
+    auto *force_out = force, *loss_out = loss, *weight_out = weight;
     CHUTE_VECTOR_LOOP
     for (std::size_t c = begin; c < end; ++c) {
-      const auto result = law(c)(xi[c], dxi[c], laws::Pair(m[c], R[c]));
-      const double clipped = result.total < floor ? floor : result.total;
-      force_out[c] = clipped;
-      loss_out[c] = result.loss_rate + (clipped - result.total) * dxi[c];  // what the spring gives is lost
+      const laws::Pair pair(m[c], R[c]);
+      if constexpr (Weighted) {
+        const double closing_now = near_ends.closing(dxi[c], law(c)(xi[c], dxi[c], pair).total, pair.m_eff);
+        const auto part = near_ends(xi[c], closing_now);
+        const double seen = linear_spring<typename Choice::Law> ? xi[c] + part.shift : xi[c];
+        const auto whole = law(c)(seen, closing_now, pair);
+        const double total = whole.total + (part.at_once - 1) * whole.at_once;
+        // Where it would pull and must not, it does not, whatever its weight.
+        const double pushes = whole.total < total ? whole.total : total;
+        const double clipped = pushes < floor ? floor : total;
+        force_out[c] = clipped;
+        loss_out[c] = part.at_once * whole.loss_rate + (clipped - total) * closing_now;
+        weight_out[c] = part.at_once;
+      } else {
+        const auto result = law(c)(xi[c], dxi[c], pair);
+        const double clipped = result.total < floor ? floor : result.total;
+        force_out[c] = clipped;
+        loss_out[c] = result.loss_rate + (clipped - result.total) * dxi[c];  // what the spring gives is lost
+      }
     }
   }
 };
@@ -193,7 +221,8 @@ template <class Choice, int T>
 struct ShearKernel {
   Choice choice;
   std::array<const double*, T> slip;
-  const double *normal_force, *m_eff;
+  const double *normal_force, *m_eff,
+      *weight;  // of EndWeights: friction's viscous branch is there at once too
   Part range;
   std::array<double*, T> force;
   double* loss;
@@ -201,7 +230,7 @@ struct ShearKernel {
   void operator()() const {
     const Choice law = choice;
     const auto v_s = slip;
-    const auto *f_n = normal_force, *m = m_eff;
+    const auto *f_n = normal_force, *m = m_eff, *w = weight;
     const auto [begin, end] = range;
     const auto force_out = force;
     auto* loss_out = loss;
@@ -209,7 +238,7 @@ struct ShearKernel {
     for (std::size_t c = begin; c < end; ++c) {
       Vec<T> v;
       for (int k = 0; k < T; ++k) v[k] = v_s[k][c];
-      const Vec<T> result = law(c)(v, f_n[c], m[c]);
+      const Vec<T> result = law(c)(w[c] * v, f_n[c], m[c]);
       for (int k = 0; k < T; ++k) force_out[k][c] = result[k];
       loss_out[c] = -dot(result, v);
     }

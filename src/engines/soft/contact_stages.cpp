@@ -121,6 +121,7 @@ void Contacts<D>::reserve(std::size_t most) {
   for (auto& a : shear_force) a.resize(most);
   for (auto* a : {&overlap, &closing, &m_eff, &r_eff, &normal_force, &normal_loss, &shear_loss, &stored})
     a->resize(most);
+  weight.resize(most, 1.0);
 }
 
 template <int D>
@@ -302,8 +303,14 @@ void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double d
                          contacts.stored.data());
     } else {
       const double least = laws_.first().attraction ? -std::numeric_limits<double>::infinity() : 0.0;
-      run_kernel(isa_, NormalKernel<Choice>{choice, least, xi, dxi, m, R,
-                                            whole_vectors(range, contacts.count), force, loss});
+      const auto run = [&]<bool weighted>() {
+        run_kernel(isa_, NormalKernel<Choice, weighted>{choice, laws_.ends(), least, xi, dxi, m, R,
+                                                        whole_vectors(range, contacts.count), force, loss,
+                                                        contacts.weight.data()});
+      };
+      if constexpr (acts_at_once<Law>)
+        if (laws_.ends().on()) return run.template operator()<true>();
+      run.template operator()<false>();
     }
   });
 }
@@ -315,10 +322,10 @@ void ContactStages<D>::shear_forces(Part range, Contacts<D>& contacts, double du
     if constexpr (laws::ShearWithMemory<typename Choice::Law>)
       run_kernel(isa_, remembering(choice, range, contacts, duration));
     else
-      run_kernel(isa_,
-                 ShearKernel<Choice, turns<D>>{choice, pointers(slip), contacts.normal_force.data(),
-                                               contacts.m_eff.data(), whole_vectors(range, contacts.count),
-                                               pointers(contacts.shear_force), contacts.shear_loss.data()});
+      run_kernel(isa_, ShearKernel<Choice, turns<D>>{
+                           choice, pointers(slip), contacts.normal_force.data(), contacts.m_eff.data(),
+                           contacts.weight.data(), whole_vectors(range, contacts.count),
+                           pointers(contacts.shear_force), contacts.shear_loss.data()});
   });
 }
 

@@ -27,8 +27,9 @@ struct Contacts {
   Array normal_force;                ///< F_n, repulsion positive
   std::array<Array, turns<D>> shear_force;  ///< F_s on j, in the components of `slip`
   Array normal_loss, shear_loss;            ///< dissipated power
-  Array stored;                             ///< energy stored by laws with a memory, if there are any
-  char deep = 0;                            ///< is any overlap deeper than the stages watch for?
+  Array weight;   ///< of what is there at once, where contacts begin and end (EndWeights)
+  Array stored;   ///< energy stored by laws with a memory, if there are any
+  char deep = 0;  ///< is any overlap deeper than the stages watch for?
 
   /// Makes room for `most` contacts, and as many more as fill up a vector (see `padded`).
   void reserve(std::size_t most);

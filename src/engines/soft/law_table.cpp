@@ -28,7 +28,8 @@ bool LawTable::needs_radius() const {
   return std::ranges::any_of(laws_, [](const auto& laws) { return laws::needs_radius(laws); });
 }
 
-void LawTable::know_time_step(double time_step) {
+void LawTable::know_time_step(double time_step, const EndWeights& ends) {
+  ends_ = ends;
   for (auto& laws : laws_) laws::know_time_step(laws, time_step);
   sort_by_type();
 }

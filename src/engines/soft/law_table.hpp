@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/by_pair.hpp"
+#include "engines/soft/contact_ends.hpp"
 #include "laws/list.hpp"
 
 namespace chute::soft {
@@ -42,7 +43,8 @@ class LawTable {
   std::int32_t of(int a, int b) const {
     return static_cast<std::int32_t>(static_cast<std::size_t>(a) * materials_ + static_cast<std::size_t>(b));
   }
-  void know_time_step(double time_step);
+  void know_time_step(double time_step, const EndWeights& ends);
+  const EndWeights& ends() const { return ends_; }
 
   /// visit(choice): SameLaw or LawByContact of the type that the laws are of.
   template <class Visit>
@@ -63,6 +65,7 @@ class LawTable {
   };
   std::vector<laws::ContactLaws> laws_;
   std::size_t materials_;
+  EndWeights ends_;
   Lists<laws::Normal>::Type normal_;  // the same once more, by their type
   Lists<laws::Shear>::Type shear_;
 

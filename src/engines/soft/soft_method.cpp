@@ -52,6 +52,7 @@ std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const eng
   }
   for (const auto& wall : setup.walls) setup.wall_laws.push_back(laws_of_wall(setting, wall.surface));
   setup.scheme = method.integrator;
+  setup.ends = method.contact_ends;
   setup.time_step = method.step(setting);
   setup.skins = usual_skins<D>(setting.mean_diameter);
   setup.deepest_overlap = method.deepest_overlap;

@@ -11,10 +11,22 @@ std::string why_so_deep(const SoftSetup<D>& setup) {
                      fewest);
 }
 
+namespace {
+
+template <int D>
+void know_time_step(LawTable& laws, const SoftSetup<D>& setup) {
+  EndWeights ends;
+  if (setup.ends == ContactEnds::weighted)
+    ends = EndWeights(setup.time_step, setup.scheme == Scheme::verlet ? setup.time_step / 2 : 0);
+  laws.know_time_step(setup.time_step, ends);
+}
+
+}  // namespace
+
 template <int D>
 LawTable laws_of_grains(const SoftSetup<D>& setup) {
   auto laws = setup.between.empty() ? LawTable(setup.laws) : LawTable(setup.between);
-  laws.know_time_step(setup.time_step);
+  know_time_step(laws, setup);
   return laws;
 }
 
@@ -22,7 +34,7 @@ template <int D>
 std::vector<std::optional<LawTable>> laws_of_walls(const SoftSetup<D>& setup) {
   auto laws = setup.wall_laws;
   for (auto& own : laws)
-    if (own) own->know_time_step(setup.time_step);
+    if (own) know_time_step(*own, setup);
   return laws;
 }
 
