@@ -36,9 +36,10 @@ TEST_CASE("an unknown key is answered with its line and the nearest key") {
         "scene.toml:11: grains.cuont: unknown key, did you mean count?");
   CHECK(refused("[engine]", "[engin]") == "scene.toml:22: engin: unknown key, did you mean engine?");
   CHECK(refused("[output]", "[outptu]") == "scene.toml:28: outptu: unknown key, did you mean output?");
-  CHECK(refused("method = \"soft\"", "colour = \"red\"") ==
-        "scene.toml:23: engine.colour: unknown key, known: method, integrator, steps_per_contact, time_step, "
-        "deepest_overlap");
+  CHECK(
+      refused("method = \"soft\"", "colour = \"red\"") ==
+      "scene.toml:23: engine.colour: unknown key, known: method, integrator, contact_ends, steps_per_contact, time_step, "
+      "deepest_overlap");
 }
 
 TEST_CASE("a wrong type says what was written and what is wanted") {

@@ -17,7 +17,7 @@ struct HeadOn {
   soft::Scheme scheme = soft::Scheme::gear5;
   double m_i = Acetate::mass, m_j = Acetate::mass;
   bool j_moves = true;
-  soft::ContactEnds ends = soft::ContactEnds::weighted;
+  soft::ContactEnds ends = soft::ContactEnds::sampled;
 
   /// Two balls meet head on; the contact begins the given part of a step after a step.
   Bounce at_phase(double part) const {
@@ -81,9 +81,9 @@ TEST_CASE("two acetate spheres bounce with e_n = 0.87, whatever the phase of the
   const double per = GENERATE(50.0, 50.3, 50.8);
   const double dt = acetate.contact_time() / per, one_step = Acetate::damping * dt / acetate.m_eff;
   HeadOn impact{acetate_law, dt, scheme};
-  const auto weighted = impact.at_phases(100);
-  impact.ends = soft::ContactEnds::sampled;
   const auto sampled = impact.at_phases(100);
+  impact.ends = soft::ContactEnds::weighted;
+  const auto weighted = impact.at_phases(100);
   INFO("means " << mean_restitution(weighted) << ", " << mean_restitution(sampled));
   CHECK(std::abs(mean_restitution(sampled) - 0.87) < 0.0005);
   CHECK(worst_restitution(sampled, acetate.restitution()) < one_step);
@@ -139,10 +139,9 @@ TEST_CASE("restitution asked per pair holds for unequal masses and with a fixed 
     // t_n of a pair with this restitution: π / ω with the decay ω ln(1/e_n)/π
     const double w = std::sqrt(Acetate::stiffness / m_eff / (1 + std::pow(std::log(e_n) / pi, 2)));
     const HeadOn collision{contact, pi / w / 50, soft::Scheme::gear5, Acetate::mass, m_j, moves};
-    const double decay = 2 * std::log(1 / e_n) / 50;  // γ_n δt/m_eff
     for (const auto& b : collision.at_phases(8)) {
       INFO("e_n " << e_n << ", mass ratio " << ratio);
-      CHECK(b.restitution == Approx(e_n).margin(decay * decay + std::pow(1.0 / 50, 2)));
+      CHECK(b.restitution == Approx(e_n).margin(5e-4));
       CHECK(b.contact_time == Approx(pi / w).margin(pi / w / 50));
     }
   }

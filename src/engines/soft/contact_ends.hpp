@@ -7,10 +7,10 @@ namespace chute::soft {
 
 /// What a contact counts in the time step in which it begins or ends.
 enum class ContactEnds {
-  weighted,  ///< by the part of the step that it lasted
-  sampled    ///< whole: the forces are those at the end of the step, as in LAMMPS
+  sampled,  ///< whole: the forces are those at the end of the step, as in LAMMPS
+  weighted  ///< by the part of the step that it lasted
 };
-inline constexpr std::array<std::string_view, 2> contact_ends_words{"weighted", "sampled"};
+inline constexpr std::array<std::string_view, 2> contact_ends_words{"sampled", "weighted"};
 
 /// Weights for the first and the last two steps of a contact.
 ///
@@ -26,6 +26,9 @@ inline constexpr std::array<std::string_view, 2> contact_ends_words{"weighted", 
 /// lack is made good by the two nearest instants, such that the weights are continuous functions of s, 0 at s = 0, and 1 from s = 2 on:
 /// an s that is a little wrong, for the grains do not move uniformly, then does little. Both are pure arithmetic and selections,
 /// for vector loops.
+///
+/// A contact at rest that another impact tears open within a step or two is not helped: by the first instant at which it is seen to
+/// open it has nearly ended, or has, and most of the pull γ_n ξ of its damping is missing, more with weights than without.
 class EndWeights {
  public:
   /// Off: all steps count whole.

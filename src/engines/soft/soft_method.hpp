@@ -16,7 +16,7 @@ class SoftMethod final : public Described<engines::Method, SoftMethod> {
   static constexpr std::int64_t grains_per_thread = 2000;
   Scheme integrator = Scheme::gear5;
   static constexpr std::array<std::string_view, 2> integrators{"gear5", "verlet"};
-  ContactEnds contact_ends = ContactEnds::weighted;
+  ContactEnds contact_ends = ContactEnds::sampled;
   double steps_per_contact = 50;
   std::optional<double> time_step;
   double deepest_overlap = 0.25;
@@ -26,7 +26,7 @@ class SoftMethod final : public Described<engines::Method, SoftMethod> {
     a.choice("integrator", integrator, integrators, "(2.11) to (2.14), or velocity Verlet");
     a.choice(
         "contact_ends", contact_ends, contact_ends_words,
-        "what contacts count in the step in which they begin or end: by the part that they last, or whole (as in LAMMPS)");
+        "how contacts count in the steps in which they begin or end: whole (as in LAMMPS), or by the part that they last");
     a.value("steps_per_contact", steps_per_contact, at_least(5),
             "time steps in the shortest contact time t_n");
     a.value("time_step", time_step, positive, "instead of steps_per_contact");

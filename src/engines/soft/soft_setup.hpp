@@ -34,7 +34,7 @@ struct SoftSetup : Surroundings<D> {
   std::vector<std::optional<LawTable>>
       wall_laws{};  ///< of the walls that have their own; if `between` is not empty, of all
   Scheme scheme = Scheme::gear5;
-  ContactEnds ends = ContactEnds::weighted;
+  ContactEnds ends = ContactEnds::sampled;
   double time_step = 0;
   typename search::NeighbourList<D>::Skins skins{};
   double deepest_overlap = 0.25;  ///< of the smallest radius; beyond it the run has left physics
