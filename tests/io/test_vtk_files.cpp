@@ -61,7 +61,7 @@ struct Sample {
   GrainsView view() const { return view_of(grains, force, domain, 1.5); }
 };
 
-const io::RunFacts facts{"SI", 2, {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}, {}};
+const io::RunFacts facts{"SI", 2, {-1, 4, 0, 0, 0, 0}, {0.5, -0.25, 0}, {}, {}};
 
 void check_facts(vtkPolyData* data) {
   auto* field = data->GetFieldData();
@@ -218,7 +218,7 @@ TEST_CASE("contacts are lines along their branches, with all that they tell") {
 TEST_CASE("a wall is drawn where it crosses the room") {
   const io::Room room{0, 4, 0, 2, -1, 3};
   const auto of = [](std::vector<io::WallFace> faces, int dimensions) {
-    return io::RunFacts{"SI", dimensions, {}, {}, std::move(faces)};
+    return io::RunFacts{"SI", dimensions, {}, {}, std::move(faces), {}};
   };
   const auto flat = read_back(io::walls_vtp(of(io::faces_of(Wall<3>{{{0, 0, 1}}, {{0, 0, 1}}}, 0, room), 3)));
   REQUIRE(flat->GetNumberOfPolys() == 1);
