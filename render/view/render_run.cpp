@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
-constexpr int drawing_version = 6;
+constexpr int drawing_version = 7;
 constexpr const char* drawn_from = "Drawn-From";
 
 /// Adds a part such that where it ends matters.
