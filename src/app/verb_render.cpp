@@ -280,7 +280,7 @@ void add_render(CLI::App& app) {
           "--speed", a->speed,
           "simulated time in a second of the movie: 0.25 is slow motion in reduced units; what lies between frames "
           "is drawn between them; default a frame a picture")
-      ->check(CLI::PositiveNumber);
+      ->check(positive);
   verb->add_option("--color", a->color,
                    "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "
                    "chains: forces, which chains tell; default the speed, else the species");
