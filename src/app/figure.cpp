@@ -57,6 +57,13 @@ plot::StyleChanges read_style(const fs::path& file) {
   return style;
 }
 
+/// 0, the usual one, where none is named, or one that is not there: [style] has told that.
+int family_named(const std::optional<std::string>& font) try {
+  return font ? plot::font_family(*font) : 0;
+} catch (const InputError&) {
+  return 0;
+}
+
 /// The rows of a map would be drawn as lines, along an axis that is not theirs, where no panel makes a map of them.
 void check_maps(const TomlReader& a, const Recipe& recipe) {
   for (const auto& data : recipe.data) {
@@ -91,7 +98,7 @@ static void describe(TomlReader& a, Recipe& recipe) {
   }
   // texts are tried out as they are read, so their font comes first
   const auto& font = recipe.plot.changes.font;
-  const plot::FamilyScope family(font ? plot::font_family(*font) : 0);
+  const plot::FamilyScope family(family_named(font));
   a.section("plot", recipe.plot);
 }
 static void describe(KeyLister& a, Recipe& recipe) {
