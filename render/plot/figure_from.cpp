@@ -74,6 +74,8 @@ class Builder {
       plain.label = name;
       figure.panels.push_back(make_panel(plain));
     }
+    require_use(&Panel::right, recipe_.right, "right", "axis", figure);
+    require_use(&Panel::top, recipe_.top, "top", "x_axis", figure);
     draw_crowds_as_densities(figure);
     if (figure.panels.size() == 1 && names_.size() == 1)
       figure.panels[0].label.clear();  // (a) alone says nothing
@@ -103,6 +105,15 @@ class Builder {
   void require_panel(const std::string& name, const char* where) const {
     if (std::find(names_.begin(), names_.end(), name) != names_.end()) return;
     fail_recipe(fmt::format("{} \"{}\": no rows of that panel in {}", where, name, table_.file.string()));
+  }
+
+  /// A second axis along which nothing counts would not be drawn.
+  void require_use(std::optional<Axis> Panel::*axis, const std::optional<AxisRecipe>& asked,
+                   std::string_view name, std::string_view key, const Figure& figure) const {
+    if (asked && std::none_of(figure.panels.begin(), figure.panels.end(),
+                              [&](const Panel& panel) { return (panel.*axis).has_value(); }))
+      fail_recipe(
+          fmt::format("{}: no series counts along it: [[plot.series]] with {} = \"{}\"", name, key, name));
   }
 
   /// A name that nothing answers to is a slip.
@@ -289,7 +300,6 @@ class Builder {
     if (!used) return {};
     if (is_right ? rows_.y_times : rows_.x_times) fail_recipe(name + ": dates have no second axis");
     if (p.map && is_right) fail_recipe("right: the colour bar of the map stands there");
-    if (p.map) fail_recipe("top: a map has one axis of x");
     const AxisRecipe general = (recipe_.*of_all).value_or(AxisRecipe{}),
                      own = (p.*of_panel).value_or(AxisRecipe{});
     more = factor(general, own) / (is_right ? factor(recipe_.y, p.y) : factor(recipe_.x, p.x));

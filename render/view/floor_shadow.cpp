@@ -34,10 +34,11 @@ void blur(std::vector<float>& cells, int size, int half, std::ptrdiff_t along, s
 
 FloorShadow::FloorShadow(const Floor& floor, const std::vector<Ball>& balls, const Eye& eye)
     : floor_(floor), eye_(eye), u_(floor.normal.unitOrthogonal()), v_(floor.normal.cross(u_)) {
-  if (balls.empty()) return;
-  double radii = 0;
-  for (const Ball& ball : balls) radii += ball.radius;
-  const double radius = radii / static_cast<double>(balls.size());
+  double radii = 0, count = 0;
+  for (const Ball& ball : balls)
+    if (ball.has_shadow) radii += ball.radius, ++count;
+  if (count == 0) return;
+  const double radius = radii / count;
   if (!std::isfinite(radius) || !std::isfinite(floor.radius)) return;  // grains beyond what squares can be of
   cell_ = std::max(radius / cells_per_radius, 2 * floor.radius / most_cells);
   size_ = static_cast<int>(std::ceil(2 * floor.radius / cell_));
@@ -47,6 +48,7 @@ FloorShadow::FloorShadow(const Floor& floor, const std::vector<Ball>& balls, con
   const Eigen::Vector3d aside = fall - floor.normal;
   if (aside.norm() > floor.reach) fall = floor.normal + floor.reach * aside.normalized();
   for (const Ball& ball : balls) {
+    if (!ball.has_shadow) continue;
     const Eigen::Vector3d p = ball.centre - floor.centre;
     const Eigen::Vector3d at = p - p.dot(floor.normal) * fall;
     const double x = at.dot(u_) / cell_ + size_ / 2.0, y = at.dot(v_) / cell_ + size_ / 2.0,
@@ -57,7 +59,10 @@ FloorShadow::FloorShadow(const Floor& floor, const std::vector<Ball>& balls, con
       const double dy = j + 0.5 - y, left = r * r - dy * dy;
       for (int i = first; i <= last; ++i) {
         const double dx = i + 0.5 - x;
-        if (dx * dx < left) dark_[static_cast<std::size_t>(j * size_ + i)] = 1;
+        if (dx * dx < left) {
+          float& dark = dark_[static_cast<std::size_t>(j * size_ + i)];
+          dark += static_cast<float>(ball.opacity) * (1 - dark);  // glass lets light through
+        }
       }
     }
   }

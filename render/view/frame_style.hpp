@@ -64,7 +64,7 @@ struct FrameStyle {
   double copy_reach = 0.16;          ///< so many periods far to each side
   bool impacts = false;              ///< marks where grains of the bed were hit so far
   bool occlusion = false;            ///< 3D: ambient occlusion
-  double opacity = 1;                ///< of grains that move
+  double opacity = 1;                ///< of grains that move: the share of what lies behind that each covers
   /// 3D: a dark line inside the rim of every grain; shadows on a plane below; edges of the periodic box, or of the box
   /// of all grains. Not told: not drawn, but see furnish_space in survey.hpp.
   std::optional<bool> outlines, floor, box;

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Raised whenever the same data are drawn otherwise than before: old pictures are then drawn again.
-constexpr int drawing_version = 6;
+constexpr int drawing_version = 7;
 constexpr const char* drawn_from = "Drawn-From";
 
 /// Adds a part such that where it ends matters.
@@ -81,12 +81,12 @@ struct Beside {
   }
 };
 
-/// The arrays that a frame is drawn from, beside radius and type.
-std::vector<std::string> wanted_arrays(const FrameStyle& style, bool by_id) {
+/// The arrays that a frame is drawn from, beside radius and type; `between`: and what lies between two.
+std::vector<std::string> wanted_arrays(const FrameStyle& style, bool between) {
   std::vector<std::string> names{color_array(style.color), std::string(fields::body.name)};
-  if (style.color.empty() || style.arrows) names.emplace_back(fields::velocity.name);
+  if (style.color.empty() || style.arrows || between) names.emplace_back(fields::velocity.name);
   if (style.spin) names.emplace_back(fields::angle.name), names.emplace_back(fields::orientation.name);
-  if (style.trail || style.impacts || style.chains || by_id) names.emplace_back(fields::id.name);
+  if (style.trail || style.impacts || style.chains || between) names.emplace_back(fields::id.name);
   return names;
 }
 
@@ -207,11 +207,13 @@ class FrameDrawer {
     std::vector<read::ForceLink> links;
     if (has_network) links = read::parse_network(std::move(network), job_.meanings, &frame);
     if (moment.part > 0) {
-      const auto before = frame;
-      frame =
-          between(before, read::parse_frame(read::read_files(frames_[number + 1]), job_.meanings, wanted_),
-                  moment.part);
-      move_ends(links, before, frame);
+      const auto& next = frames_[number + 1];
+      const auto before = frame, after = read::parse_frame(read::read_files(next), job_.meanings, wanted_);
+      frame = between(before, after, moment.part);
+      Network later{after, {}};
+      if (job_.style.chains && !next.contacts.empty())
+        later.links = read::parse_network(read::network_bytes(next), job_.meanings, &after);
+      links = between({before, std::move(links)}, later, frame, moment.part);
       time += moment.part * (survey_.times[number + 1] - time);
     }
     std::vector<const read::GrainFrame*> trail;

@@ -59,7 +59,7 @@ class SolidPainter : public Painter {
   }
 
   void paint(const FrameData& data, image::Image& into) override {
-    content_ = {}, glassy_.clear();
+    content_ = {};
     const auto& frame = data.frame;
     const auto colors = studio_.colors(frame);
     const auto* orientation = frame.find(fields::orientation.name);
@@ -67,7 +67,8 @@ class SolidPainter : public Painter {
     content_.balls.reserve(frame.size());
     for (std::size_t i = 0, end = 0; i < frame.size(); ++i) {
       const bool alone = i >= end && (end = end_of_body(frame, i)) == i + 1;
-      if (!studio_.is_cut(frame.centre(i))) add_grain(frame, i, colors[i], alone);
+      const auto body = alone ? Ball::alone : static_cast<std::uint32_t>(end);
+      if (!studio_.is_cut(frame.centre(i))) add_grain(frame, i, colors[i], body);
     }
     if (studio_.style.impacts) add_impacts(data);
     if (studio_.style.trail) add_trails(data, colors);
@@ -77,7 +78,6 @@ class SolidPainter : public Painter {
     if (studio_.style.floor.value_or(false)) add_floor();
     add_walls(data.walls);
     scene_.draw(content_, into);
-    if (studio_.is_glassy()) show_behind(into);
     if (overflows() && studio_.style.furniture) keep_inside(into);
   }
 
@@ -101,8 +101,6 @@ class SolidPainter : public Painter {
   Eigen::AlignedBox3d box_;
   plot::Rect shown_, scene_place_;  ///< pixels
   SolidContent content_;
-  std::vector<bool> glassy_;  ///< of each ball: it is seen through
-  image::Image behind_;
   const read::PointArray* orientation_ = nullptr;
 
   /// The eye's axes: azimuth counts from the direction from which x points to the right, or y if x is up.
@@ -200,43 +198,25 @@ class SolidPainter : public Painter {
   }
 
   /// Of a sphere that is part of a grain its form shows how it turns: it needs no marks.
-  void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color, bool alone) {
+  void add_grain(const read::GrainFrame& frame, std::size_t i, Rgb color, std::uint32_t body) {
     const bool bed = studio_.is_bed(frame, i);
     Ball ball{frame.centre(i), seen_radius(frame, i), color};
-    if (orientation_ && !bed && alone)
+    ball.opacity = bed ? 1 : studio_.style.opacity, ball.body = body;
+    if (orientation_ && !bed && body == Ball::alone)
       ball.orientation = Eigen::Quaterniond(orientation_->at(i, 0), orientation_->at(i, 1),
                                             orientation_->at(i, 2), orientation_->at(i, 3))
                              .cast<float>();
     content_.balls.push_back(ball);
-    glassy_.push_back(!bed);
     if (!copies()) return;
+    Ball copy = ball;
     for (const double shift : copy_shifts(studio_.style, period())) {
-      Ball copy = ball;
-      copy.centre.x() += shift;
+      copy.centre.x() = ball.centre.x() + shift;
+      if (body != Ball::alone) copy.body += static_cast<std::uint32_t>(frame.size());  // a body of its own
       const double beyond = beyond_domain(studio_.survey.domain, copy.centre.x(), studio_.style.copy_reach);
       if (beyond >= 1) continue;
       copy.color = mix(color, studio_.palette.ground, 0.6 + 0.3 * std::max(0.0, beyond));
       content_.balls.push_back(copy);
-      glassy_.push_back(!bed);
     }
-  }
-
-  /// Grains are one layer of glass: where the nearest thing is a grain that moves, what lies behind all of these shows through.
-  void show_behind(image::Image& picture) {
-    SolidContent behind = content_;
-    behind.balls.clear(), behind.spots.clear();
-    std::vector<std::size_t> new_number(content_.balls.size());
-    for (std::size_t i = 0; i < content_.balls.size(); ++i) {
-      new_number[i] = behind.balls.size();
-      if (!glassy_[i]) behind.balls.push_back(content_.balls[i]);
-    }
-    for (auto spot : content_.spots)  // they are on beads of the bed
-      if (!glassy_[spot.ball]) spot.ball = new_number[spot.ball], behind.spots.push_back(spot);
-    scene_.draw(behind, behind_);
-    const double opacity = studio_.style.opacity;
-    for (std::size_t k = 0; k < picture.rgba.size(); ++k)
-      picture.rgba[k] =
-          static_cast<std::uint8_t>(std::lround(opacity * picture.rgba[k] + (1 - opacity) * behind_.rgba[k]));
   }
 
   /// Spots on beads of the bed, which stay where they were hit. Grains that move would have turned away since.
@@ -289,6 +269,13 @@ class SolidPainter : public Painter {
         if (const double L = studio_.survey.domain.sizes()[c]; L > 0)
           to[c] -= L * std::round((to[c] - link.from[c]) / L);  // a contact through the periodic ends
       content_.rods.push_back({link.from, to, radius, radius, studio_.chain_color(link.force)});
+      if (!studio_.is_glassy()) continue;
+      // round ends, which grains that are not seen through would hide
+      for (const Vector3d& end : {link.from, to}) {
+        Ball joint{end, radius, studio_.chain_color(link.force)};
+        joint.has_shadow = false;
+        content_.balls.push_back(joint);
+      }
     }
   }
 

@@ -7,6 +7,7 @@
 
 #include "view/floor_shadow.hpp"
 #include "view/occlusion.hpp"
+#include "view/see_through.hpp"
 #include "view/solid_shading.hpp"
 #include "view/solid_tile.hpp"
 
@@ -54,29 +55,6 @@ std::vector<std::uint32_t> in_view(const std::vector<Thing>& things) {
   return order;
 }
 
-/// A pane as the eye has it.
-struct SeenPane {
-  std::vector<Eigen::Vector2d> corners;  ///< pixels, y down
-  Eigen::Vector3d normal;                ///< right, up, depth; inside the pane, normal . place = offset
-  double offset, depth;
-  Vector3f color;
-  float alpha;
-
-  /// Depth beyond that of the eye's centre where the line of sight meets it, infinite where it does not.
-  float at(const Eye& eye, double x, double y) const {
-    constexpr float far = std::numeric_limits<float>::infinity();
-    bool left = true, right = true;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Eigen::Vector2d a = corners[i], b = corners[(i + 1) % corners.size()];
-      const double side = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
-      left = left && side <= 0, right = right && side >= 0;
-    }
-    const double slant = normal.dot(sight(eye, x, y));
-    if ((!left && !right) || slant == 0) return far;
-    return static_cast<float>(offset / slant - eye.distance);
-  }
-};
-
 std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(255 * x + 0.5f, 0.f, 255.f)); }
 
 /// One picture while it is drawn.
@@ -90,22 +68,28 @@ class Drawing {
         height_(height),
         ball_bins_(width, height),
         rod_bins_(width, height),
+        glass_bins_(width, height),
         colors_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Vector4f::Zero()) {
     balls_.reserve(content.balls.size());
     for (const Ball& ball : content.balls) balls_.emplace_back(ball, eye, width, height);
     for (const Rod& rod : content.rods) rods_.emplace_back(rod, eye, width, height);
     auto order = in_view(balls_);
+    const auto glass = std::stable_partition(order.begin(), order.end(),
+                                             [&](std::uint32_t i) { return !content.balls[i].is_glass(); });
+    glass_bins_.fill(balls_, {glass, order.end()});
+    order.erase(glass, order.end());
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return balls_[a].nearest != balls_[b].nearest ? balls_[a].nearest < balls_[b].nearest : a < b;
     });
     ball_bins_.fill(balls_, order);
     rod_bins_.fill(rods_, in_view(rods_));
     if (look.occlusion > 0) surfaces_.emplace(width, height);
-    if (!content.panes.empty()) see_panes();
   }
 
   void draw(bool all) {
     const Shading shading(content_, balls_, rods_, eye_, look_);
+    SeeThrough before(content_, balls_, shading, eye_);
+    if (!before.is_empty()) before_.assign(colors_.size(), Vector4f::Zero());
     const auto tile = std::make_unique<Tile>(eye_);
     for (int row = 0; row < ball_bins_.rows; ++row)
       for (int column = 0; column < ball_bins_.columns; ++column) {
@@ -119,7 +103,11 @@ class Drawing {
         for (auto k = rod_bins_.first[number]; k < rod_bins_.first[number + 1]; ++k)
           tile->add(rods_[rod_bins_.names[k]],
                     static_cast<std::uint32_t>(balls_.size()) + rod_bins_.names[k]);
-        shade(*tile, shading, column * Tile::width / samples, row * Tile::height / samples);
+        const int left = column * Tile::width / samples, top = row * Tile::height / samples;
+        before.start(left, top);
+        for (auto k = glass_bins_.first[number]; k < glass_bins_.first[number + 1]; ++k)
+          before.add(glass_bins_.names[k]);
+        shade(*tile, shading, before, left, top);
       }
   }
 
@@ -140,14 +128,14 @@ class Drawing {
       for (int x = 0; x < width_; ++x) {
         const std::size_t i = index(x, y);
         Vector4f below = ground;
-        if (shadow && colors_[i].w() < 1) {
+        Vector4f color = colors_[i];
+        if (!light.empty()) color.head<3>() *= light[i];
+        if (!before_.empty()) color += before_[i];
+        if (shadow && color.w() < 1) {
           const float dark = floor_darkness * shadow->at(x + 0.5, y + 0.5);
           below = (1 - dark) * below + Vector4f(0, 0, 0, dark);
         }
-        Vector4f color = colors_[i];
-        if (!light.empty()) color.head<3>() *= light[i];
         color += (1 - color.w()) * below;
-        if (!before_.empty()) color = before_[i] + (1 - before_[i].w()) * color;
         std::uint8_t* to = into.pixel(x, y);
         for (int c = 0; c < 4; ++c) to[c] = byte(color[c]);
       }
@@ -160,90 +148,59 @@ class Drawing {
   int width_, height_;
   std::vector<SeenBall> balls_;
   std::vector<SeenRod> rods_;
-  std::vector<SeenPane> panes_;  ///< the farthest first
-  Bins ball_bins_, rod_bins_;
-  std::vector<Vector4f> colors_;  ///< of balls and rods; alpha multiplied in
-  std::vector<Vector4f> before_;  ///< of panes, which cover the rest
+  Bins ball_bins_, rod_bins_, glass_bins_;
+  std::vector<Vector4f>
+      colors_;  ///< of what is solid, as much as glass before it lets through; alpha multiplied in
+  std::vector<Vector4f> before_;  ///< of that glass, and of panes
   std::optional<Surfaces> surfaces_;
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
-  void see_panes() {
-    before_.assign(colors_.size(), Vector4f::Zero());
-    for (const Pane& pane : content_.panes) {
-      if (pane.corners.size() < 3) continue;
-      SeenPane seen;
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      std::vector<Eigen::Vector3d> places;
-      for (const auto& corner : pane.corners) {
-        seen.corners.push_back(eye_.seen(corner));
-        places.push_back(eye_.coordinates(corner));
-        sum += places.back();
-      }
-      seen.normal = (places[1] - places[0]).cross(places[2] - places[0]);
-      seen.offset = seen.normal.dot(places[0]), seen.depth = sum.z() / static_cast<double>(places.size());
-      seen.color = Eigen::Vector3d(pane.color.r, pane.color.g, pane.color.b).cast<float>();
-      seen.alpha = static_cast<float>(pane.alpha);
-      panes_.push_back(std::move(seen));
-    }
-    std::stable_sort(panes_.begin(), panes_.end(),
-                     [](const SeenPane& a, const SeenPane& b) { return a.depth > b.depth; });
-  }
-
   /// The pixels of a tile whose first is (left, top).
-  void shade(const Tile& tile, const Shading& shading, int left, int top) {
+  void shade(const Tile& tile, const Shading& shading, SeeThrough& before, int left, int top) {
     const int right = std::min(width_, left + Tile::width / samples),
               bottom = std::min(height_, top + Tile::height / samples);
     for (int y = top; y < bottom; ++y)
       for (int x = left; x < right; ++x) {
-        std::array<std::uint32_t, samples * samples> names;
-        std::array<float, samples * samples> depths;
-        for (int k = 0; k < samples * samples; ++k) {
-          const int sx = samples * (x - left) + k % samples, sy = samples * (y - top) + k / samples;
-          names[static_cast<std::size_t>(k)] = tile.name(sx, sy);
-          depths[static_cast<std::size_t>(k)] = tile.depth(sx, sy);
+        std::array<std::uint32_t, samples_of_pixel> names;
+        std::array<float, samples_of_pixel> depths;
+        for (std::size_t k = 0; k < samples_of_pixel; ++k) {
+          const int sample = static_cast<int>(k);
+          const int sx = samples * (x - left) + sample % samples, sy = samples * (y - top) + sample / samples;
+          names[k] = tile.name(sx, sy), depths[k] = tile.depth(sx, sy);
         }
-        shade_pixel(names, shading, x, y);
-        if (!panes_.empty()) cover_pixel(depths, x, y);
+        std::array<float, samples_of_pixel> through;
+        through.fill(1);
+        if (!before_.empty()) {
+          const Veil veil = before.at(x, y, depths);
+          before_[index(x, y)] = veil.color, through = veil.through;
+        }
+        shade_pixel(names, through, shading, x, y);
       }
   }
 
-  void shade_pixel(const std::array<std::uint32_t, samples * samples>& names, const Shading& shading, int x,
-                   int y) {
+  /// `through`: the share of what is solid that is seen at each sample.
+  void shade_pixel(const std::array<std::uint32_t, samples_of_pixel>& names,
+                   const std::array<float, samples_of_pixel>& through, const Shading& shading, int x, int y) {
     const std::size_t i = index(x, y);
-    const auto keep = [&](const Shaded& s) {
+    const auto keep = [&](const Shaded& s, float share) {
+      colors_[i] += share * Vector4f(s.color.x(), s.color.y(), s.color.z(), 1);
       if (surfaces_ && s.depth < surfaces_->depths[i])
         surfaces_->depths[i] = s.depth, surfaces_->normals[i] = s.normal;
     };
+    constexpr float one = 1.f / samples_of_pixel;  // a power of two: shares of 1 add up to 1
     if (std::all_of(names.begin(), names.end(), [&](auto name) { return name == names[0]; })) {
       if (names[0] == Tile::nothing) return;
-      const auto s = shading.at(names[0], x + 0.5, y + 0.5);
-      colors_[i] = Vector4f(s.color.x(), s.color.y(), s.color.z(), 1);
-      return keep(s);
+      return keep(shading.at(names[0], x + 0.5, y + 0.5),
+                  one * std::accumulate(through.begin(), through.end(), 0.f));
     }
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (names[k] == Tile::nothing) continue;
       const double sx = (static_cast<double>(k % samples) + 0.5) / samples,
                    sy = (static_cast<double>(k / samples) + 0.5) / samples;
-      const auto s = shading.at(names[k], x + sx, y + sy);
-      colors_[i] += Vector4f(s.color.x(), s.color.y(), s.color.z(), 1) / static_cast<float>(names.size());
-      keep(s);
-    }
-  }
-
-  void cover_pixel(const std::array<float, samples * samples>& depths, int x, int y) {
-    for (const SeenPane& pane : panes_) {
-      float seen = 0;
-      for (std::size_t k = 0; k < depths.size(); ++k)
-        if (pane.at(eye_, x + (static_cast<double>(k % samples) + 0.5) / samples,
-                    y + (static_cast<double>(k / samples) + 0.5) / samples) < depths[k])
-          seen += 1.f / static_cast<float>(depths.size());
-      if (seen == 0) continue;
-      const float alpha = seen * pane.alpha;
-      auto& below = before_[index(x, y)];
-      below = (1 - alpha) * below + alpha * Vector4f(pane.color.x(), pane.color.y(), pane.color.z(), 1);
+      keep(shading.at(names[k], x + sx, y + sy), one * through[k]);
     }
   }
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -11,11 +12,18 @@
 namespace chute::view {
 
 struct Ball {
+  static constexpr std::uint32_t alone = std::numeric_limits<std::uint32_t>::max();
+
   Eigen::Vector3d centre;
   double radius;
   Rgb color;
   /// From the ball's own axes to the files'. Bands on three great circles show it; the zero quaternion: none.
   Eigen::Quaternionf orientation{0, 0, 0, 0};
+  double opacity = 1;          ///< below 1 it is glass, which covers this share of what lies behind it
+  std::uint32_t body = alone;  ///< balls of one body are one layer of glass
+  bool has_shadow = true;      ///< on the floor
+
+  bool is_glass() const { return opacity < 1; }
 };
 
 /// A small round mark on the surface of a ball, in `direction` from its centre.
@@ -64,8 +72,8 @@ struct SolidLook {
 };
 
 /// Balls, rods and panes in space, lit from above the eye, drawn by the processor: every pixel has four samples,
-/// every sample knows the nearest thing that it hits, and colours are worked out only for what is seen, once
-/// where all four hit the same. Arithmetic in a fixed order, so the same bytes on every machine.
+/// every sample knows the nearest solid thing that it hits and what of glass lies before it, and colours are worked
+/// out only for what is seen, once where all four hit the same. Occlusion darkens what is solid. Arithmetic in a fixed order, so the same bytes on every machine.
 class SolidScene {
  public:
   SolidScene(int width, int height, const SolidLook& look) : width_(width), height_(height), look_(look) {}

@@ -55,15 +55,35 @@ SeenRod::SeenRod(const Rod& rod, const Eye& eye, int width, int height)
 // plane. It meets the ball of radius r where |z d - C| = r, and all that is small is written with e alone, so that
 // nothing cancels however far the eye is:
 //   w = e.d,  root² = r² d.d - C_z² (e.e + (e x c)²),  z = C_z - (C_z w + root) / d.d
+struct BallSight {
+  Eigen::Vector3d e, d;
+  double w, square;
+
+  BallSight(const SeenBall& ball, const Eye& eye, double x, double y)
+      : e((x - ball.at.x()) / eye.focal, (ball.at.y() - y) / eye.focal, 0) {
+    const double z = ball.centre.z();
+    const Eigen::Vector3d c = ball.centre / z;
+    d = c + e, w = e.dot(d);
+    const double cross = e.x() * c.y() - e.y() * c.x();
+    square = ball.radius * ball.radius * d.squaredNorm() - z * z * (e.squaredNorm() + cross * cross);
+  }
+  /// From the depth of the ball's centre to where the line meets it.
+  double nearer(const SeenBall& ball) const {
+    return -(ball.centre.z() * w + std::sqrt(std::max(0.0, square))) / d.squaredNorm();
+  }
+};
+
 Hit hit(const SeenBall& ball, const Eye& eye, double x, double y) {
-  const Eigen::Vector3d c = ball.centre / ball.centre.z();
-  const Eigen::Vector3d e{(x - ball.at.x()) / eye.focal, (ball.at.y() - y) / eye.focal, 0}, d = c + e;
-  const double w = e.dot(d), cross = e.x() * c.y() - e.y() * c.x(), z = ball.centre.z();
-  const double square =
-      ball.radius * ball.radius * d.squaredNorm() - z * z * (e.squaredNorm() + cross * cross);
-  const double nearer = -(z * w + std::sqrt(std::max(0.0, square))) / d.squaredNorm();
-  const Eigen::Vector3d out = z * e + nearer * d;
+  const BallSight line(ball, eye, x, y);
+  const double nearer = line.nearer(ball), z = ball.centre.z();
+  const Eigen::Vector3d out = z * line.e + nearer * line.d;
   return {z - eye.distance + nearer, out.normalized()};
+}
+
+std::optional<double> depth_at(const SeenBall& ball, const Eye& eye, double x, double y) {
+  const BallSight line(ball, eye, x, y);
+  if (line.square < 0) return {};
+  return ball.centre.z() - eye.distance + line.nearer(ball);
 }
 
 // After I. Quilez, "Capped cone - intersection" (2016), with distances from a point of the line near the rod.

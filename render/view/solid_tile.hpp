@@ -48,6 +48,8 @@ inline Eigen::Vector3d sight(const Eye& eye, double x, double y) {
 }
 /// The line is known to meet it, or nearly so.
 Hit hit(const SeenBall& ball, const Eye& eye, double x, double y);
+/// Where the line meets it, beyond the depth of the eye's centre; nothing where it passes.
+std::optional<double> depth_at(const SeenBall& ball, const Eye& eye, double x, double y);
 std::optional<Hit> hit(const SeenRod& rod, const Eye& eye, double x, double y);
 
 /// A rectangle of the picture whose samples know what is nearest. Blocks of them know how far their farthest

@@ -57,6 +57,29 @@ plot::StyleChanges read_style(const fs::path& file) {
   return style;
 }
 
+/// 0, the usual one, where none is named, or one that is not there: [style] has told that.
+int family_named(const std::optional<std::string>& font) try {
+  return font ? plot::font_family(*font) : 0;
+} catch (const InputError&) {
+  return 0;
+}
+
+/// The rows of a map would be drawn as lines, along an axis that is not theirs, where no panel makes a map of them.
+void check_maps(const TomlReader& a, const Recipe& recipe) {
+  for (const auto& data : recipe.data) {
+    if (!data.table || !data.columns.z) continue;
+    const auto name = figures::series_of_map(data.columns);
+    const bool drawn = std::ranges::any_of(recipe.plot.panels, [&](const plot::PanelRecipe& panel) {
+      return panel.map && panel.label == data.columns.panel && plot::matches(panel.map->series, name + "0");
+    });
+    a.check(drawn, "data",
+            fmt::format("z = \"{}\" is of a map: [[plot.panel]] with {}map = {{ series = \"{}*\" }} draws it",
+                        *data.columns.z,
+                        data.columns.panel.empty() ? "" : fmt::format("label = \"{}\", ", data.columns.panel),
+                        name));
+  }
+}
+
 }  // namespace
 
 static void describe(TomlReader& a, Recipe& recipe) {
@@ -75,7 +98,7 @@ static void describe(TomlReader& a, Recipe& recipe) {
   }
   // texts are tried out as they are read, so their font comes first
   const auto& font = recipe.plot.changes.font;
-  const plot::FamilyScope family(font ? plot::font_family(*font) : 0);
+  const plot::FamilyScope family(family_named(font));
   a.section("plot", recipe.plot);
 }
 static void describe(KeyLister& a, Recipe& recipe) {
@@ -99,8 +122,15 @@ Recipe read_recipe(const fs::path& file) {
   TomlReader reader(table, file.string());
   Recipe recipe;
   recipe.plot.source = file.string();
-  describe(reader, recipe);
-  reader.finish();
+  reader.collect();
+  try {
+    describe(reader, recipe);
+    reader.finish();
+  } catch (const SlipTold&) {
+    // told with the others
+  }
+  reader.throw_slips();
+  check_maps(reader, recipe);
   return recipe;
 }
 

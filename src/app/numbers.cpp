@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
@@ -42,6 +43,22 @@ std::size_t choice(const std::string& option, const std::string& word,
   throw InputError(fmt::format("{} {}: not known{}, allowed: {}", option, word,
                                hint.empty() ? "" : fmt::format(", did you mean {}?", hint),
                                fmt::join(words, ", ")));
+}
+
+namespace {
+std::string number_that(bool (*holds)(double), const std::string& text, const char* must) {
+  std::istringstream in(text);
+  double x = 0;
+  if (in >> x && in.eof() && std::isfinite(x) && holds(x)) return "";
+  return text + " is not allowed, must be a number " + must;
+}
+}  // namespace
+
+std::string positive(const std::string& text) {
+  return number_that([](double x) { return x > 0; }, text, "> 0");
+}
+std::string not_negative(const std::string& text) {
+  return number_that([](double x) { return x >= 0; }, text, ">= 0");
 }
 
 bool all_given(const std::vector<double>& values) {

@@ -208,12 +208,13 @@ void add_compare(CLI::App& app) {
       ->capture_default_str();
   verb->add_option("--max-pixels", a->max_pixels,
                    "so many pixels, or 0.1% of them, may differ by more; default none");
-  verb->add_option("--rms", a->rms, "instead: largest root mean square over the channels, of 255");
-  verb->add_option("--ssim", a->ssim, "instead: least mean structural similarity, 1 of equal pictures");
+  verb->add_option("--rms", a->rms, "instead: largest root mean square over the channels, of 255")
+      ->check(not_negative);
+  verb->add_option("--ssim", a->ssim, "instead: least mean structural similarity, 1 of equal pictures")
+      ->check(CLI::Range(-1.0, 1.0));
   verb->add_option("--rtol", a->rtol, "tables: numbers a and b are the same if |a - b| <= atol + rtol |a|")
-      ->check(CLI::NonNegativeNumber);
-  verb->add_option("--atol", a->atol, "tables: see --rtol; both 0: the same numbers")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative);
+  verb->add_option("--atol", a->atol, "tables: see --rtol; both 0: the same numbers")->check(not_negative);
   verb->add_flag("--json", a->json, "for programs: keys as in README.md");
   verb->footer(
       "Exit status: 0 same, 1 different, 2 a file is wrong.\n"

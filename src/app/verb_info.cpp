@@ -98,6 +98,7 @@ void show_flow(const std::string& clock, const fs::path& path) {
   const auto text = [](const Estimate& e) {
     return e.error ? fmt::format("{:.6g} ± {:.2g}", e.mean, *e.error) : fmt::format("{:.6g}", e.mean);
   };
+  if (!std::isfinite(flow.from)) return;  // a run that has hardly begun
   fmt::print("the flow is {}; from {} = {:.6g} on: v_x = {}, omega = {}\n", measure::name(flow.verdict),
              clock == "time" ? std::string("t") : clock, flow.from, text(flow.v_x), text(flow.omega));
 }
@@ -141,7 +142,8 @@ void show_run(const Json& run, const fs::path& path) {
 }
 
 void show_sweep(const Json& sweep) {
-  fmt::print("{}: {}\n", text_of(sweep["directory"]), text_of(sweep["title"]));
+  const auto title = text_of(sweep["title"]);
+  fmt::print("{}{}{}\n", text_of(sweep["directory"]), title.empty() ? "" : ": ", title);
   for (const auto& axis : sweep["axes"])
     fmt::print("  {:<28} {} {}\n", text_of(axis["key"]),
                fmt::join(axis["values"].get<std::vector<double>>(), ", "), text_of(axis["unit"]));

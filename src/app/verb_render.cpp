@@ -280,7 +280,7 @@ void add_render(CLI::App& app) {
           "--speed", a->speed,
           "simulated time in a second of the movie: 0.25 is slow motion in reduced units; what lies between frames "
           "is drawn between them; default a frame a picture")
-      ->check(CLI::PositiveNumber);
+      ->check(positive);
   verb->add_option("--color", a->color,
                    "array that colours the grains, with :x, :y, :z or :magnitude for one component; none; "
                    "chains: forces, which chains tell; default the speed, else the species");
@@ -324,7 +324,7 @@ void add_render(CLI::App& app) {
   verb->add_option("--copies-reach", a->copy_reach, "so many periods of them to each side")
       ->capture_default_str();
   verb->add_option("--opacity", a->opacity,
-                   "of grains that move: below 1 one sees through them, such as to chains")
+                   "of grains that move: below 1 each covers this share of what lies behind it")
       ->check(CLI::Range(0.01, 1.0));
   verb->add_flag("--impacts", a->impacts, "marks where beads of the bed were hit so far (needs impacts.vtp)");
   verb->add_option("--cut", a->cuts,

@@ -5,6 +5,7 @@
 
 #include "app/input.hpp"
 #include "app/interrupt.hpp"
+#include "app/numbers.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "app/settings.hpp"
@@ -123,7 +124,7 @@ void add_run(CLI::App& app) {
                  "go on with a run; run.duration and what stands in [output] may be others than before");
   verb->add_option("--checkpoint-minutes", a->checkpoint_minutes,
                    "a checkpoint after so many minutes of the clock, too; 0: only those of the scene")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative)
       ->capture_default_str();
   verb->add_flag("--force", a->force, "replace a run that is already there");
   verb->add_flag("--beyond-machine", a->beyond_machine,

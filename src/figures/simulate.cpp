@@ -13,7 +13,9 @@
 #include "figures/extract.hpp"
 #include "figures/extract_hard.hpp"
 #include "figures/held_fixed.hpp"
+#include "figures/table_source.hpp"
 #include "measure/diffusion.hpp"
+#include "read/table.hpp"
 #include "run/facts.hpp"
 #include "run/flow.hpp"
 #include "run/run.hpp"
@@ -148,6 +150,18 @@ std::vector<std::string> meanings_of(const Curve& curve) {
 }
 
 /// The table of a recipe whose curves name runs that are there.
+/// A profile of a flow that did not settle says so in its file.
+std::vector<std::string> doubts_of(const Curve& curve, const std::vector<fs::path>& runs) {
+  if (curve.extract != Extract::profile) return {};
+  for (const auto& run : runs)
+    if (auto lines =
+            doubts(read::read_table(run / (curve.fine ? "profiles_fine.csv" : "profiles.csv")).comments,
+                   curve.panel, {curve.series});
+        !lines.empty())
+      return lines;
+  return {};
+}
+
 FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
   FigureTable table;
   table.comments = {fmt::format("x: {}", recipe.x), fmt::format("y: {}", recipe.y)};
@@ -158,6 +172,7 @@ FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
     table.comments.push_back(fmt::format("{}{}: from {}", curve.panel.empty() ? "" : curve.panel + " ",
                                          curve.series, fmt::join(curve.runs, ", ")));
     for (auto& line : meanings_of(curve)) table.comments.push_back(std::move(line));
+    for (auto& line : doubts_of(curve, runs)) table.comments.push_back(std::move(line));
     const auto rows = extract(curve, runs);
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/column_texts.hpp"
 #include "common/error.hpp"
 #include "common/keys.hpp"
+#include "common/not_settled.hpp"
 #include "figures/formula.hpp"
 #include "read/table.hpp"
 
@@ -109,15 +111,14 @@ std::string last_word(const std::string& column) { return column.substr(column.r
 FigureTable rows_of_map(const TableColumns& columns, const read::Table& table,
                         const std::filesystem::path& file, const std::vector<bool>& counts) {
   const auto x = table.values(columns.x), y = table.column(columns.y), z = table.column(*columns.z);
-  const std::string name = columns.series.empty() ? last_word(*columns.z) : columns.series;
+  const std::string name = series_of_map(columns);
   FigureTable made;
-  made.comments = {fmt::format("{}: {} over {} and {} of {}, a series for each {}", name, *columns.z,
+  made.comments = {fmt::format("{}…: {} over {} and {} of {}, a series for each {}", name, *columns.z,
                                columns.x, columns.y, file.string(), columns.y)};
   made.x_times = table.is_time(columns.x);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (counts[i] && std::isfinite(x[i]) && std::isfinite(y[i]) && std::isfinite(z[i]))
-      made.rows.push_back(
-          {columns.panel, as_name(fmt::format("{} {}={}", name, last_word(columns.y), y[i])), x[i], z[i]});
+      made.rows.push_back({columns.panel, as_name(fmt::format("{}{}", name, y[i])), x[i], z[i]});
   if (made.rows.empty())
     throw InputError(fmt::format("{}: no row has numbers in {}, {} and {}{}", file.string(), columns.x,
                                  columns.y, *columns.z,
@@ -126,6 +127,23 @@ FigureTable rows_of_map(const TableColumns& columns, const read::Table& table,
 }
 
 }  // namespace
+
+std::vector<std::string> doubts(const std::vector<std::string>& comments, const std::string& panel,
+                                const std::vector<std::string>& names) {
+  const auto said =
+      std::ranges::find_if(comments, [](const std::string& line) { return line.starts_with(not_settled); });
+  std::vector<std::string> lines;
+  if (said == comments.end()) return lines;
+  for (const auto& name : names) {
+    lines.push_back(name + ": " + *said);
+    lines.push_back(fmt::format("hollow{}: {}", panel.empty() ? "" : " " + panel, name));
+  }
+  return lines;
+}
+
+std::string series_of_map(const TableColumns& columns) {
+  return (columns.series.empty() ? last_word(*columns.z) : columns.series) + " " + last_word(columns.y) + "=";
+}
 
 FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::path& file) {
   const auto table = read::read_table(file);
@@ -169,6 +187,10 @@ FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::pa
   for (std::size_t i = 0; i < x.size(); ++i)
     if (counts[i] && std::isfinite(x[i]) && std::isfinite(y[i]))
       made.rows.push_back({columns.panel, as_name(names[i]), x[i], y[i], known(x_err[i]), known(y_err[i])});
+  std::vector<std::string> drawn;
+  for (const auto& row : made.rows)
+    if (std::ranges::find(drawn, row.series) == drawn.end()) drawn.push_back(row.series);
+  for (auto& line : doubts(table.comments, columns.panel, drawn)) made.comments.push_back(std::move(line));
   if (made.rows.empty())
     throw InputError(fmt::format("{}: no row has numbers in {} and {}{}", file.string(), columns.x, columns.y,
                                  columns.where.empty() ? "" : " and passes what `where` asks"));

@@ -34,6 +34,14 @@ struct TableColumns {
 void describe(TomlReader& a, TableColumns& columns);
 void describe(KeyLister& a, TableColumns& columns);
 
+/// Lines for a figure's table where a file of averages says that no steady state was found: its own line, with the names of the series
+/// that are drawn from it, and that these are drawn hollow. Empty if it says nothing of that.
+std::vector<std::string> doubts(const std::vector<std::string>& comments, const std::string& panel,
+                                const std::vector<std::string>& names);
+
+/// What the names of a map's series begin with, "z y=": the value of y follows.
+std::string series_of_map(const TableColumns& columns);
+
 /// The rows of a table. InputError that names the file and the nearest column if one is not there.
 FigureTable rows_of_table(const TableColumns& columns, const std::filesystem::path& file);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/column_texts.hpp"
+#include "common/not_settled.hpp"
 
 namespace chute::measure {
 
@@ -21,7 +22,7 @@ std::vector<std::string> RunContext::average_note(const std::optional<double>& f
   const bool settled = flow.verdict == Verdict::steady || flow.verdict == Verdict::stopped;
   if (settled)
     return {fmt::format("averages from {} on, when the flow was {}", moment(flow.from), name(flow.verdict))};
-  return {fmt::format("no steady state was found (the flow is {}): averages from {} on all the same",
+  return {fmt::format("{} (the flow is {}): averages from {} on all the same", not_settled,
                       name(flow.verdict), moment(flow.from))};
 }
 

@@ -1,6 +1,7 @@
 #include "run/growth.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
@@ -52,11 +53,15 @@ std::optional<std::string> difference(const KeyValues& there, const KeyValues& h
   };
   auto all = there;
   all.insert(here.begin(), here.end());
-  // Defaults of outputs follow from other keys: those are named first.
-  for (const bool outputs : {false, true})
+  // Defaults of outputs follow from other keys, of which those are named that differ.
+  for (const bool outputs : {false, true}) {
+    std::vector<std::string> different;
     for (const auto& [key, any] : all)
       if (key.starts_with("output.") == outputs && !may_differ(key) && value(there, key) != value(here, key))
-        return fmt::format("{} is {} there, and {} here", key, value(there, key), value(here, key));
+        different.push_back(
+            fmt::format("{} is {} there, and {} here", key, value(there, key), value(here, key)));
+    if (!different.empty()) return fmt::format("{}", fmt::join(different, "; "));
+  }
   return {};
 }
 

@@ -87,11 +87,16 @@ std::vector<std::string> choose_contact(toml::table& table,
     const auto scene = make(table);
     const auto s = setting_of(scene);
     const double dt = scene.engine->step(s);
+    // Of rigid grains only friction counts: the key is there so that the scene holds for soft ones, too.
+    const bool is_integrated = std::ranges::any_of(
+        scene.engine->facts(s), [](const Fact& fact) { return fact.name.starts_with("gamma_s dt"); });
     const double gamma = round_number(slip_decay * s.reference().m_eff / (3.5 * dt), false);
     tangential->insert_or_assign("viscosity", gamma);
     chosen.push_back(fmt::format(
-        "contact.tangential.viscosity = {:g}: the largest whose friction a step of {:.3g} {} integrates well",
-        gamma, dt, s.in("s", "sqrt(d/g)")));
+        "contact.tangential.viscosity = {:g}: {}", gamma,
+        is_integrated ? fmt::format("the largest whose friction a step of {:.3g} {} integrates well", dt,
+                                    s.in("s", "sqrt(d/g)"))
+                      : std::string("of no effect, this method's grains slip or stick")));
   }
   if (friction) chosen.push_back(fmt::format("contact.tangential.friction = {:g}", usual_friction));
   return chosen;

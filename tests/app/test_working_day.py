@@ -220,6 +220,92 @@ class Compare(unittest.TestCase):
         self.assertIn("is drawn by rsvg-convert, which is not here: install librsvg2-bin", said.stderr)
 
 
+class Recipes(unittest.TestCase):
+    """What a recipe leaves unsaid, or says in vain, is told."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def figure(self, text, *words):
+        self.write("r.toml", text)
+        return subprocess.run([chute, "figure", "r.toml", "-o", "out", "--quiet", *words], cwd=self.folder,
+                              capture_output=True, text=True)
+
+    def test_several_slips_at_once(self):
+        said = self.figure('titel = "x"\n[data]\nexpression = "sin(x"\nseries = "a"\nrange = [0, 3]\n'
+                           '[plot]\nwidht_mm = 80\n[style]\ncolors = ["#c000"]\n')
+        self.assertEqual(said.returncode, 2)
+        self.assertEqual(sorted(line.split(": ")[1] for line in said.stderr.splitlines()),
+                         ["r.toml:" + number for number in ("1", "3", "7", "9")], said.stderr)
+
+    def test_an_axis_along_which_nothing_counts(self):
+        for axis, key in (("right", "axis"), ("top", "x_axis")):
+            said = self.figure('title = "x"\n[data]\nexpression = "x"\nseries = "a"\nrange = [0, 3]\n'
+                               '[plot.%s]\nlabel = "b"\n' % axis)
+            self.assertEqual(said.returncode, 2)
+            self.assertIn('%s: no series counts along it: [[plot.series]] with %s = "%s"' % (axis, key, axis), said.stderr)
+
+    def test_rows_of_a_map_without_a_map_and_a_map_with_an_axis_above(self):
+        self.write("t.csv", "a,b,c\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n")
+        data = 'title = "x"\n[[data]]\ntable = "t.csv"\nx = "a"\ny = "b"\nz = "c"\n'
+        said = self.figure(data)
+        self.assertEqual(said.returncode, 2)
+        self.assertIn('z = "c" is of a map: [[plot.panel]] with map = { series = "c b=*" } draws it', said.stderr)
+        panel = '[[plot.panel]]\nmap = { series = "c b=*" }\n'
+        self.assertEqual(self.figure(data + panel).returncode, 0)
+        line = '[[data]]\nexpression = "x/10"\nseries = "l"\nrange = [0, 9]\n'
+        series = '[[plot.series]]\nmatch = "l"\n'
+        said = self.figure(data + line + panel + series + 'x_axis = "top"\n[plot.top]\nlabel = "above"\n')
+        self.assertEqual(said.returncode, 0, said.stderr)
+        with open(os.path.join(self.folder, "out", "r.svg"), encoding="utf-8") as file:
+            self.assertIn("above", file.read())
+        said = self.figure(data + line + panel + series + 'axis = "right"\n[plot.right]\nlabel = "R"\n')
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("right: the colour bar of the map stands there", said.stderr)
+
+    def test_averages_of_what_did_not_settle_are_drawn_hollow(self):
+        self.write("p.csv", "# averages\n# no steady state was found (the flow is unsettled): averages from t = 3 on all the same\n"
+                   "h,v_x\n0.5,1\n1.5,2\n")
+        said = self.figure('title = "x"\n[data]\ntable = "p.csv"\nx = "h"\ny = "v_x"\nseries = "one"\n')
+        self.assertEqual(said.returncode, 0, said.stderr)
+        with open(os.path.join(self.folder, "out", "r.csv"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        self.assertIn("# hollow: one", lines)
+        self.assertIn("# one: no steady state was found (the flow is unsettled): averages from t = 3 on all the same", lines)
+        with open(os.path.join(self.folder, "out", "r.svg"), encoding="utf-8") as file:
+            self.assertIn("not settled", file.read())
+
+    def test_the_profiles_of_a_run_say_so(self):
+        run = os.path.join(self.folder, "run")
+        done = subprocess.run([chute, "run", os.path.join(sources, "scenes", "demo.toml"), "-o", run, "--quiet",
+                               "--set", "grains.count=20", "--set", "bed.count=10", "--set", "run.duration=2", "--set",
+                               "output.profiles={from=\"steady\"}", "--set", "contact.normal.stiffness=1e4", "--set",
+                               "contact.tangential.viscosity=40"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for text in ('[data]\ntable = "run/profiles.csv"\nx = "h"\ny = "v_x"\nseries = "one"\n',
+                     '[data]\nx = "h"\ny = "v"\n[[data.curve]]\nseries = "one"\nruns = ["run"]\nextract = "profile"\n'
+                     'column = "v_x"\n'):
+            said = self.figure('title = "x"\n' + text)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            with open(os.path.join(self.folder, "out", "r.csv"), encoding="utf-8") as file:
+                lines = file.read()
+            self.assertIn("\n# hollow: one\n", lines)
+            self.assertIn("\n# one: no steady state was found", lines)
+
+    def test_numbers_of_options_say_what_they_must_be(self):
+        for words, says in ((("render", ".", "--speed", "0", "--movie", "a.gif"), "0 is not allowed, must be a number > 0"),
+                            (("compare", "a.csv", "b.csv", "--rtol", "-1"), "-1 is not allowed, must be a number >= 0"),
+                            (("compare", "a.png", "b.png", "--ssim", "2"), "--ssim: Value 2 not in range")):
+            said = subprocess.run([chute, *words], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(said.returncode, 2)
+            self.assertIn(says, said.stderr)
+
+
 class Columns(unittest.TestCase):
     """Whatever runs write, `chute info --columns` knows what it means."""
 

@@ -324,6 +324,14 @@ std::vector<Golden> frame_goldens() {
                  {"without impacts", [](Subject& s) { s.impacts.clear(); }},
                  {"cut lower", [](Subject& s) { s.style.cuts[0].value -= 0.6; }}},
                 nothing, enclose_and_hit));
+  style = small();
+  style.opacity = 0.25, style.color = "radius", style.chains = true;
+  style.outlines = style.floor = true;
+  style.camera.elevation = 15;
+  all.push_back(golden_of("frame-glass", style, "frame-spheres",
+                          {{"opacity 0.3", [](Subject& s) { s.style.opacity = 0.3; }},
+                           {"one force chain missing", remove_upper_chain},
+                           {"camera turned by 0.1 degrees", turn_camera}}));
   return all;
 }
 

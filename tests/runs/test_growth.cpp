@@ -152,6 +152,8 @@ TEST_CASE("what a run that goes on may not change is told with both values") {
   CHECK(refused({"seed=9"}) == where + "seed is 7 there, and 9 here" + may);
   CHECK(refused({"contact.normal.restitution=0.7", "run.duration=20"}) ==
         where + "contact.normal.restitution is 0.6 there, and 0.7 here" + may);
+  CHECK(refused({"seed=9", "contact.normal.restitution=0.7"}) ==
+        where + "contact.normal.restitution is 0.6 there, and 0.7 here; seed is 7 there, and 9 here" + may);
   CHECK(refused({"engine.time_step=1e-4"}).starts_with(where + "engine.time_step is not given there, and "));
   CHECK(refused({"engine.steps_per_contact=20"}).starts_with(where + "engine.steps_per_contact is 50 there"));
   CHECK(refused({"run.duration=5"}) ==

@@ -198,7 +198,25 @@ TEST_CASE("a scene goes on from what another run left, with another method too")
       }
     }
   CHECK(last.engine->grains().orientation[0][3] != 1);  // it goes on turned as it was
-  // hard grains take over in flight; soft ones overlap, and hard grains say so
+  // hard grains take over, in flight and where soft ones overlapped: they move as far as that, and no farther
+  const auto settled = make_engine(from({"grains.start={from=\"" + run + "\"}", "engine.method=event"}));
+  const auto a = last.engine->grains(), b = settled.engine->grains();
+  double overlap = 0, way = 0;
+  for (std::size_t i = 0; i < 40; ++i) {
+    for (std::size_t j = i + 1; j < 40; ++j) {
+      const auto gap = [&](const GrainsView& g) {
+        return std::hypot(g.position[0][i] - g.position[0][j], g.position[1][i] - g.position[1][j],
+                          g.position[2][i] - g.position[2][j]) -
+               g.radius[i] - g.radius[j];
+      };
+      overlap = std::max(overlap, -gap(a));
+      CHECK(gap(b) > -2e-9);
+    }
+    for (std::size_t k = 0; k < 3; ++k) way = std::max(way, std::abs(a.position[k][i] - b.position[k][i]));
+  }
+  CHECK(overlap > 1e-6);  // there was something to do
+  CHECK(way < 0.05);
+  settled.engine->advance_to(5);
   const auto hard = from({"grains.start={from=\"" + run + "\", frame=0}", "engine.method=event"});
   const auto other = make_engine(hard);
   other.engine->advance_to(20);

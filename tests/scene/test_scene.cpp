@@ -244,6 +244,10 @@ TEST_CASE("what a scene says is never chosen otherwise") {
       "[incline]\nangle=\"20 deg\"\n[bed]\ncount=20\n[grains]\ncount=50\ndiameter={mean=1}\n"
       "[run]\nduration=10\n[contact.normal]\nrestitution=0.5\n");
   CHECK(bare.chosen.size() == 5);  // seed and units, too
+  const auto rigid = parsed(
+      "[incline]\nangle=\"20 deg\"\n[bed]\ncount=20\n[grains]\ncount=50\ndiameter={mean=1}\n"
+      "[run]\nduration=10\n[contact.normal]\nrestitution=0.5\n[engine]\nmethod=\"contact\"\n");
+  CHECK_THAT(rigid.chosen[1], Catch::Contains("of no effect"));  // rigid grains have no slip that dies away
 }
 
 }  // namespace scene_tests

@@ -345,4 +345,124 @@ TEST_CASE("A camera that follows a grain sees it in one place, and no jump at th
   for (std::size_t i = 1; i < 12; ++i) CHECK(top(i) == Approx(place).margin(1.5));
 }
 
+namespace {
+
+/// The colour in the middle of a picture, 0 to 255.
+Vector3d middle(const image::Image& image) {
+  const auto* pixel = image.pixel(image.width / 2, image.height / 2);
+  return {double(pixel[0]), double(pixel[1]), double(pixel[2])};
+}
+
+view::Ball glass(double depth, double radius, const view::Rgb& color, double opacity) {
+  view::Ball ball{{0, depth, 0}, radius, color};
+  ball.opacity = opacity;
+  return ball;
+}
+
+/// What a thing of this colour shows where nothing is before it.
+Vector3d alone(view::Ball ball, const view::Eye& eye) {
+  ball.opacity = 1;
+  return middle(picture({.balls = {ball}}, eye));
+}
+
+}  // namespace
+
+TEST_CASE("Of several balls of glass behind one another all are seen, each through those before it") {
+  const auto eye = eye_at({0, 0, 0}, 50, 1500, {100, 75});
+  const view::SolidLook white{{1, 1, 1}, {0, 0, 0}, 1};
+  const auto a = glass(-6, 1, {0.9, 0.1, 0.1}, 0.3), b = glass(0, 1.5, {0.1, 0.8, 0.1}, 0.5),
+             c = glass(5, 1, {0.1, 0.1, 0.9}, 0.2);
+  const Vector3d ground(255, 255, 255);
+  const Vector3d expected =
+      0.3 * alone(a, eye) + 0.7 * (0.5 * alone(b, eye) + 0.5 * (0.2 * alone(c, eye) + 0.8 * ground));
+  // the eye's order, whatever that in the file is
+  for (const auto& balls : {std::vector{a, b, c}, std::vector{c, b, a}, std::vector{b, c, a}})
+    CHECK((middle(picture({.balls = balls}, eye, 200, 150, white)) - expected).norm() < 2);
+  // something solid between them is not seen through, and what lies before it is
+  const view::Ball wall{{0, 2.5, 0}, 0.5, {0.5, 0.5, 0.5}};
+  const Vector3d with_wall = 0.3 * alone(a, eye) + 0.7 * (0.5 * alone(b, eye) + 0.5 * alone(wall, eye));
+  CHECK((middle(picture({.balls = {c, wall, b, a}}, eye, 200, 150, white)) - with_wall).norm() < 2);
+  // a pane that stands between two of them is a layer, too
+  const view::Pane pane{{{-9, 2.5, -9}, {9, 2.5, -9}, {9, 2.5, 9}, {-9, 2.5, 9}}, {0, 0, 0}, 0.4};
+  const Vector3d with_pane =
+      0.3 * alone(a, eye) + 0.7 * (0.5 * alone(b, eye) + 0.5 * 0.6 * (0.2 * alone(c, eye) + 0.8 * ground));
+  CHECK((middle(picture({.balls = {a, b, c}, .panes = {pane}}, eye, 200, 150, white)) - with_pane).norm() <
+        2);
+}
+
+TEST_CASE("A heap of glass is its balls, each drawn for itself, laid over each other by their depths") {
+  const auto eye = eye_at({1, 1, 1}, 40, 700, {80, 60});
+  auto balls = heap(3);  // they cut through each other
+  std::vector<image::Image> alone;
+  std::vector<view::SeenBall> seen;
+  for (auto& ball : balls) {
+    alone.push_back(picture({.balls = {ball}}, eye, 160, 120));
+    seen.emplace_back(ball, eye, 160, 120);
+    ball.opacity = 0.2 + 0.3 * ball.color.r;
+  }
+  const auto whole = picture({.balls = balls}, eye, 160, 120);
+  /// Those that a line of sight meets, the nearest first.
+  const auto met = [&](double x, double y) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < balls.size(); ++i)
+      if (const auto depth = view::depth_at(seen[i], eye, x, y)) order.emplace_back(*depth, i);
+    std::sort(order.begin(), order.end());
+    std::vector<std::size_t> names;
+    for (const auto& [depth, i] : order) names.push_back(i);
+    return names;
+  };
+  int compared = 0;
+  double worst = 0;
+  std::size_t most = 0;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      const auto order = met(x + 0.25, y + 0.25);
+      bool same = true;  // in all of the pixel
+      for (const auto& [dx, dy] : {std::pair{0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}})
+        same = same && met(x + dx, y + dy) == order;
+      if (!same) continue;
+      Eigen::Vector4d expected(0, 0, 0, 0);
+      double through = 1;
+      for (const auto i : order) {
+        for (int c = 0; c < 4; ++c) expected[c] += through * balls[i].opacity * alone[i].pixel(x, y)[c];
+        through *= 1 - balls[i].opacity;
+      }
+      for (int c = 0; c < 4; ++c) worst = std::max(worst, std::abs(expected[c] - whole.pixel(x, y)[c]));
+      compared += !order.empty(), most = std::max(most, order.size());
+    }
+  CHECK(compared > 2000);
+  CHECK(most > 3);
+  CHECK(worst <= 1.5);  // every ball alone is rounded, and so is the whole
+}
+
+TEST_CASE("A body of several balls is one layer of glass, and light falls through it onto the floor") {
+  const auto eye = eye_at({0, 0, 0}, 50, 1500, {100, 75});
+  auto near = glass(-1, 1, {0.9, 0.2, 0.1}, 0.4), far = glass(1, 1.5, {0.9, 0.2, 0.1}, 0.4);
+  const auto two = picture({.balls = {near, far}}, eye);
+  near.body = far.body = 7;
+  const auto one = picture({.balls = {far, near}}, eye);
+  CHECK((middle(one) - 0.4 * alone(near, eye)).norm() < 2);
+  CHECK((middle(two) - 0.4 * alone(near, eye) - 0.6 * 0.4 * alone(far, eye)).norm() < 2);
+
+  auto above = eye_at({0, 0, 0}, 200, 1500, {100, 75});
+  above.axes = view::Eye::axes_of({0.3, -0.6, 0.7}, {0, 0, 1});
+  const view::SolidLook white{{1, 1, 1}, {0, 0, 0}, 1};
+  const auto shadow = [&](double opacity) {
+    view::Ball ball{{0, 0, 2}, 1, {1, 1, 1}};
+    ball.opacity = opacity;
+    const auto image =
+        picture({.balls = {ball}, .floor = view::Floor{{0, 0, 0}, {0, 0, 1}, 9}}, above, 200, 150, white);
+    int darkest = 255;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        view::SeenBall seen(ball, above, 200, 150);
+        if (!view::depth_at(seen, above, x + 0.5, y + 0.5))
+          darkest = std::min<int>(darkest, image.pixel(x, y)[0]);
+      }
+    return 255 - darkest;
+  };
+  CHECK(shadow(1) > 40);
+  CHECK(shadow(0.25) == Approx(0.25 * shadow(1)).margin(2));
+}
+
 }  // namespace solid_tests

@@ -44,6 +44,10 @@ EventEngine<D>::EventEngine(Grains<D> grains, const EventSetup<D>& setup)
       grains_(std::move(grains)),
       meetings_(grains_.moving, setup.contact_time),
       touches_(grains_.moving, setup.contact_time) {
+  if (!grains_.independent) {
+    engines::refuse_deep_start<D>(grains_, setup_, engines::deepest_of_soft_grains);
+    engines::push_apart<D>(grains_, setup_, touching);
+  }
   const std::size_t n = grains_.size(), moving = grains_.moving;
   flights_.resize(n);
   double widest_moving = 0, widest_fixed = 0;

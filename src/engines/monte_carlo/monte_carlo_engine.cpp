@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/state_archive.hpp"
 #include "core/kernel.hpp"
+#include "engines/kind/deep_start.hpp"
 #include "engines/kind/packing.hpp"
 
 namespace chute::monte_carlo {
@@ -72,6 +73,9 @@ MonteCarloEngine<D>::MonteCarloEngine(Grains<D> grains, const MonteCarloSetup<D>
           "engine.step: trial moves of {:.6g} are too long for a period of {:.6g}; at most {} of it "
           "is possible",
           delta_, setup_.domain.length[k], longest_part));
+  engines::refuse_deep_start<D>(grains_, setup_, engines::deepest_of_soft_grains);
+  engines::push_apart<D>(grains_, setup_, 0);
+  start_place_ = grains_.position;
   wrap_into(setup_.domain, grains_);
   lay_cells();
   check_overlaps(true);
