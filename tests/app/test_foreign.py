@@ -127,6 +127,48 @@ class Dumps(Foreign):
         self.assertEqual((found["kind"], found["time"]), ("xyz", [0.5, 0.5]))
         self.assertEqual(found["arrays"][0]["words"], ["Si", "O"])
 
+    def test_info_takes_whatever_render_takes(self):
+        """A pattern, a folder, an index, one file a process: the same frames as those that are drawn."""
+        def part(step, grains):
+            rows = "".join("%d %d 0 0 0.5\n" % (i, i + step) for i in grains)
+            return ("ITEM: TIMESTEP\n%d\nITEM: NUMBER OF ATOMS\n%d\nITEM: BOX BOUNDS pp pp pp\n0 20\n0 20\n0 20\n"
+                    "ITEM: ATOMS id x y z radius\n" % (step, len(grains)) + rows)
+        os.mkdir(self.path("split"))
+        for k, grains in enumerate((range(0, 4), range(4, 10), range(0))):  # a process may have none
+            self.write("split/dump.%d" % k, part(0, grains) + part(7, grains))
+        os.mkdir(self.path("vtk"))
+        for k in range(3):
+            self.write("vtk/s%d.vtk" % (9 + k), vtk({"radius": [0.4] * 4}))
+        self.write("vtk.vtk.series", json.dumps({"files": [{"name": "vtk/s%d.vtk" % (9 + k), "time": 0.5 * k} for k in range(3)]}))
+        sets = "".join('<DataSet timestep="%d" part="%d" file="vtk/s%d.vtk"/>' % (k // 2, k % 2, 9 + k) for k in range(2))
+        self.write("parts.pvd", '<VTKFile type="Collection"><Collection>%s</Collection></VTKFile>' % sets)
+        with gzip.open(self.path("packed.vtk.gz"), "wt") as file:
+            file.write(vtk({"radius": [0.4] * 4}))
+        for source, frames, files, time, points in (
+                ("split/dump.%", 2, 3, [0, 7], 10), ("split/dump.0", 2, None, [0, 7], 4), ("vtk", 3, 3, None, 4),
+                ("vtk/s*.vtk", 3, 3, None, 4), ("vtk.vtk.series", 3, 3, [0, 1], 4), ("parts.pvd", 1, 2, [0, 0], 8),
+                ("packed.vtk.gz", None, None, None, 4)):
+            found = json.loads(self.call("info", source, "--json").stdout)
+            self.assertEqual((found.get("frames"), found.get("files"), found.get("time"), found["points"]), (frames, files, time, points), source)
+            if frames:
+                self.assertEqual(len(self.picture(source)), frames)
+                self.assertIn("%d frame" % frames, self.call("info", source).stdout)
+        for command in (["info", "split"], ["render", "split", "-o", "p"], ["convert", "split", "--to", "csv", "-o", "c"],
+                        ["measure", "split", "-o", "m"]):
+            self.assertIn("give 'split/dump.%'", self.call(*command, status=2).stderr)
+        self.call("convert", "split/dump.%", "--to", "csv", "-o", "c")
+        self.call("measure", "split/dump.%", "-o", "m", "--quiet")
+        self.assertIn("no such file", self.call("info", "other.%", status=2).stderr)
+        self.assertIn("no such file", self.call("info", "other", status=2).stderr)
+
+    def test_info_of_a_grid_of_cells(self):
+        self.write("g.vti", '<VTKFile type="ImageData"><ImageData WholeExtent="0 3 0 2 0 0" Origin="1 0 0" Spacing="2 1 1"><Piece Extent="0 3 0 2 0 0">'
+                   '<CellData><DataArray type="Float64" Name="eta" format="ascii">0 1 2 3 4 5</DataArray></CellData></Piece></ImageData></VTKFile>')
+        found = json.loads(self.call("info", "g.vti", "--json").stdout)
+        self.assertEqual((found["points"], found["cells"], found["grid"]), (12, 6, [4, 3, 1]))
+        self.assertEqual((found["x"], found["y"], found["arrays"][0]["range"]), ([1, 7], [0, 2], [0, 5]))
+        self.assertIn("12 points, 6 cells", self.call("info", "g.vti").stdout)
+
     def test_one_that_is_being_written(self):
         self.write("d", dump_frame(0, "x y z") + dump_frame(50, "x y z")[:900])
         said = self.call("render", "d", "-o", "p", "--size", "96x96").stderr
