@@ -263,9 +263,10 @@ Json describe_file(const fs::path& path) {
   if (extension == ".pvd" || extension == ".series") return of_frames(path);
   if (const auto format = read::text_format_of(path)) return of_text_frames(path, *format);
   if (is_vtk(path)) return of_vtk(path);
+  if (extension == ".tsv" || extension == ".txt" || extension == ".dat") return of_table(path);
   throw InputError(
       path.string() +
-      ": neither a run directory nor a table (.csv), a VTK file, an index of times (.pvd, .vtk.series), a dump or an XYZ file");
+      ": neither a run directory nor a table (.csv, .tsv, .txt, .dat), a VTK file, an index of times (.pvd, .vtk.series), a dump or an XYZ file");
 }
 
 }  // namespace chute::app

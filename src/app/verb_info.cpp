@@ -222,7 +222,8 @@ void columns(const fs::path& path) {
 
 void info(const fs::path& path, bool json) {
   const auto found = describe_file(path);
-  if (json) return fmt::print("{}\n", found.dump(2));
+  if (json)
+    return fmt::print("{}\n", found.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   const auto kind = text_of(found["kind"]);
   if (kind == "run") show_run(found, path);
   if (kind == "sweep") show_sweep(found);
