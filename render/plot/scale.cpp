@@ -23,6 +23,7 @@ double Span::fraction(double value) const {
 }
 
 double Span::at(double fraction) const {
+  if (fraction == 1) return high;  // which roundings below might leave, also what doubles can hold
   if (scale == Scale::linear) return std::lerp(low, high, fraction);
   if (high - low < low) return low * std::exp(fraction * std::log1p((high - low) / low));
   return std::exp(std::lerp(std::log(low), std::log(high), fraction));

@@ -184,6 +184,17 @@ std::vector<double> minor_places(const Span& span, const Step& step, int digits)
   return places(span, {Unit::seconds, step.count == 2 ? 5 : 2, 1, step.digits + 1}, most);
 }
 
+/// Labels of seconds alone, behind the minute of the first, for axes across the end of a minute that have no room for more.
+void label_briefly(Ticks& ticks, const Step& step) {
+  for (auto& tick : ticks.major) {
+    const auto m = moment_of(tick.value, step.digits);
+    tick.label = fmt::format(":{:02}.{:0{}}", m.second % minute, m.part, step.digits);
+  }
+  const auto m = moment_of(ticks.major.front().value, step.digits);
+  ticks.factor = fmt::format("from {:04}-{:02}-{:02} {:02}:{:02}", m.years, m.months, m.days, m.second / hour,
+                             m.second / minute % minute);
+}
+
 /// Labels that leave out what all of them share, which stands in `factor`.
 void label(Ticks& ticks, const Step& step) {
   std::vector<Moment> moments;
@@ -238,23 +249,18 @@ bool fits(const Ticks& ticks, const Span& span, double length, double size, bool
   return true;
 }
 
-}  // namespace
-
-Calendar calendar() { return {month_begin(year), month_begin(10'000 * year) - 1}; }
-
-std::optional<Ticks> time_ticks(const Span& span, double length, double size, bool horizontal) {
-  const auto [first, last] = calendar();
-  if (!(span.low >= first && span.high <= last)) return {};
-  const auto digits = told_digits(span);
-  if (!digits) return {};
+/// The finest ticks whose labels fit, two at least if such are found. `brief`: those of seconds alone.
+std::optional<Ticks> finest(const Span& span, int digits, bool brief, double length, double size,
+                            bool horizontal) {
   std::optional<Ticks> few;
-  for (const Step& step : steps_from(*digits)) {
+  for (const Step& step : steps_from(digits)) {
+    if (brief && step.digits == 0) break;
     Ticks ticks;
     for (const double at : places(span, step, most_labels)) ticks.major.push_back({at, {}});
     if (ticks.major.empty() || ticks.major.size() > most_labels) continue;
-    label(ticks, step);
+    brief ? label_briefly(ticks, step) : label(ticks, step);
     if (!fits(ticks, span, length, size, horizontal)) continue;
-    const auto small = minor_places(span, step, *digits);
+    const auto small = minor_places(span, step, digits);
     if (static_cast<double>(small.size()) <= length / 3)
       for (const double at : small)
         if (std::none_of(ticks.major.begin(), ticks.major.end(),
@@ -264,6 +270,22 @@ std::optional<Ticks> time_ticks(const Span& span, double length, double size, bo
     if (!few) few = std::move(ticks);
   }
   return few;
+}
+
+}  // namespace
+
+Calendar calendar() { return {month_begin(year), month_begin(10'000 * year) - 1}; }
+
+std::optional<Ticks> time_ticks(const Span& span, double length, double size, bool horizontal) {
+  const auto [first, last] = calendar();
+  if (!(span.low >= first && span.high <= last)) return {};
+  const auto digits = told_digits(span);
+  if (!digits) return {};
+  auto found = finest(span, *digits, false, length, size, horizontal);
+  constexpr double seconds_wrap = 30;  // of a longer axis seconds alone would stand twice
+  if ((found && found->major.size() >= 2) || span.high - span.low > seconds_wrap) return found;
+  auto brief = finest(span, *digits, true, length, size, horizontal);
+  return brief && brief->major.size() >= 2 ? brief : found;
 }
 
 }  // namespace chute::plot
