@@ -7,6 +7,7 @@
 #include "plot/level_lines.hpp"
 #include "plot/map.hpp"
 #include "plot/polyline.hpp"
+#include "plot/scale.hpp"
 
 namespace chute::plot {
 namespace {
@@ -146,7 +147,7 @@ std::vector<double> contour_levels(const Map& map) {
   const auto range = range_of(map);
   std::vector<double> levels;
   for (int c = 1; c <= map.contours; ++c)
-    levels.push_back(range.low + (range.high - range.low) * c / (map.contours + 1));
+    levels.push_back(std::lerp(range.low, range.high, static_cast<double>(c) / (map.contours + 1)));
   return levels;
 }
 
@@ -157,7 +158,7 @@ std::vector<LevelLine> contours_of(const Map& map, const Frame& frame, const Loo
   const auto texts = value_texts(levels);
   std::vector<LevelLine> contours;
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    const double share = (levels[k] - range.low) / (range.high - range.low);
+    const double share = Span{range.low, range.high}.fraction(levels[k]);
     const Color ink = ink_on(map_color(share, map.diverging), look);
     for (auto& line : lines_at(map, frame, levels[k]))
       contours.push_back({levels[k], texts[k], ink, std::move(line)});

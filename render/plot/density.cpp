@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plot/scale.hpp"
+
 namespace chute::plot {
 namespace {
 
@@ -12,14 +14,15 @@ constexpr std::size_t cells_x = 90, cells_y = 66;
 struct Side {
   double low, high;
   std::size_t cells;
-  double width() const { return (high - low) / static_cast<double>(cells); }
   bool holds(double v) const { return v >= low && v <= high; }
   std::size_t cell(double v) const {
-    return std::min(cells - 1, static_cast<std::size_t>((v - low) / width()));
+    return std::min(cells - 1,
+                    static_cast<std::size_t>(Span{low, high}.fraction(v) * static_cast<double>(cells)));
   }
   std::vector<double> middles() const {
     std::vector<double> m;
-    for (std::size_t k = 0; k < cells; ++k) m.push_back(low + (static_cast<double>(k) + 0.5) * width());
+    for (std::size_t k = 0; k < cells; ++k)
+      m.push_back(std::lerp(low, high, (static_cast<double>(k) + 0.5) / static_cast<double>(cells)));
     return m;
   }
 };

@@ -76,12 +76,10 @@ constexpr double doubtful_reach = 0.3;
 
 bool is_near(const Extent& extent, const Axis& axis, double value) {
   if (extent.low > extent.high) return true;
-  if (axis.scale == Scale::log) {
-    const double reach = std::pow(extent.high / extent.low, doubtful_reach);
-    return value > 0 && value * reach >= extent.low && value <= extent.high * reach;
-  }
-  const double reach = doubtful_reach * (extent.high - extent.low);
-  return value >= extent.low - reach && value <= extent.high + reach;
+  if (axis.scale == Scale::log && value <= 0) return false;
+  if (extent.low == extent.high) return value == extent.low;
+  const double at = Span{extent.low, extent.high, axis.scale}.fraction(value);
+  return at >= -doubtful_reach && at <= 1 + doubtful_reach;
 }
 
 }  // namespace
@@ -112,7 +110,7 @@ Extents extents_of(const Plot& plot) {
   for (const auto& s : plot.series) {
     if (s.kind != Kind::line) continue;
     Extent& ey = s.right && plot.right ? e.right : e.y;
-    const double edge = ey.low + 0.01 * (ey.high - ey.low);
+    const double edge = std::lerp(ey.low, ey.high, 0.01);
     const auto there = std::count_if(s.y.begin(), s.y.end(), [&](double y) { return y < edge; });
     if (there > 2 && 5 * static_cast<std::size_t>(there) > s.y.size())
       ey.dot_low = std::min(ey.dot_low, ey.low);

@@ -90,10 +90,7 @@ class Layouter {
 
   /// More room above the data, as a share of the range: for a legend.
   static void raise(Span& span, double share) {
-    if (span.scale == Scale::log)
-      span.high *= std::pow(span.high / span.low, share);
-    else
-      span.high += share * (span.high - span.low);
+    if (share > 0) span.high = std::min(span.at(1 + share), std::numeric_limits<double>::max());
   }
 
   /// Do two panels show the same quantity along an axis? Then a reader compares them, and they have one range.

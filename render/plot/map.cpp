@@ -6,6 +6,7 @@
 
 #include "plot/axes.hpp"
 #include "plot/level_lines.hpp"
+#include "plot/scale.hpp"
 
 namespace chute::plot {
 namespace {
@@ -29,7 +30,7 @@ constexpr double overlap = 0.25;
 constexpr double bar_gap = 0.8, bar_thickness = 1.0;
 
 double level_of(double value, const MapRange& range) {
-  return std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
+  return std::clamp(Span{range.low, range.high}.fraction(value), 0.0, 1.0);
 }
 
 /// What the bar's ends mean: of logarithms, what they are of.
@@ -126,7 +127,7 @@ void draw_bands(DisplayList& list, const Frame& frame, const Map& map) {
   // Each band lies on those below it, so that no seam shows between them.
   for (int k = 0; k < map.filled; ++k) {
     const double level = k == 0 ? -std::numeric_limits<double>::infinity()
-                                : range.low + (range.high - range.low) * k / map.filled;
+                                : std::lerp(range.low, range.high, static_cast<double>(k) / map.filled);
     if (auto path = area_above(map, frame, level); !path.empty())
       list.fill(std::move(path), map_color((k + 0.5) / map.filled, map.diverging));
   }

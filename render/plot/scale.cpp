@@ -17,7 +17,16 @@ double Span::fraction(double value) const {
     return (value / 2 - low / 2) / (high / 2 - low / 2);  // from -1e308 to 1e308
   }
   if (!(value > 0)) return unknown;
+  // logarithms of what lies close together differ in their last digits only
+  if (high - low < low) return std::log1p((value - low) / low) / std::log1p((high - low) / low);
   return (std::log(value) - std::log(low)) / (std::log(high) - std::log(low));
+}
+
+double Span::at(double fraction) const {
+  if (fraction == 1) return high;  // which roundings below might leave, also what doubles can hold
+  if (scale == Scale::linear) return std::lerp(low, high, fraction);
+  if (high - low < low) return low * std::exp(fraction * std::log1p((high - low) / low));
+  return std::exp(std::lerp(std::log(low), std::log(high), fraction));
 }
 
 void Extent::include(double value, Scale scale, Mark mark) {
@@ -334,7 +343,8 @@ class Ruler {
     for (int n = lowest; n <= highest; ++n)
       for (int digit = 1; digit <= 9; ++digit) {
         const double value = digit * power_of_ten(n);
-        if (value < span_.low * (1 - 1e-9) || value > span_.high * (1 + 1e-9)) continue;
+        if (!std::isfinite(value) || value < span_.low * (1 - 1e-9) || value > span_.high * (1 + 1e-9))
+          continue;
         if (digit == 1 || digit == 2 || digit == 5)
           values.push_back(value), finest = std::min(finest, n);
         else
@@ -362,7 +372,8 @@ void keep_in_calendar(const Axis& axis, const Extent& data, Span& span) {
       wrong(fmt::format("the limit {} (in seconds since 1970; dates: from, to)", *limit));
   if (data.low <= data.high && !(is_in(data.low) && is_in(data.high)))
     wrong("there are earlier or later dates");
-  span.low = std::clamp(span.low, first, last - 1), span.high = std::clamp(span.high, span.low + 1, last);
+  span.low = std::clamp(span.low, first, last - 1);
+  span.high = std::clamp(span.high, std::nextafter(span.low, last), last);
 }
 
 }  // namespace
@@ -435,7 +446,11 @@ Ticks ticks_for(const Span& span, double length, double size, bool horizontal) {
 Ticks ticks_for(const Axis& axis, const Span& span, double length, double size, bool horizontal) {
   if (axis.times && span.scale == Scale::linear)
     if (auto ticks = time_ticks(span, length, size, horizontal)) return std::move(*ticks);
-  if (axis.names.empty()) return ticks_for(span, length, size, horizontal);
+  if (axis.names.empty()) {
+    auto ticks = ticks_for(span, length, size, horizontal);
+    if (axis.times) ticks.factor += fmt::format("{}s since 1970", ticks.factor.empty() ? "" : " ");
+    return ticks;
+  }
   return Ruler(span, length, size, horizontal).named(axis.names);
 }
 

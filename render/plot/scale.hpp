@@ -19,6 +19,8 @@ struct Span {
 
   /// 0 at low, 1 at high; NaN for what a log axis cannot show.
   double fraction(double value) const;
+  /// The value there: the other way round.
+  double at(double fraction) const;
 };
 
 /// What the data of an axis ask for.

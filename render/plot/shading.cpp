@@ -84,8 +84,7 @@ std::vector<Point> reference_points(const Frame& frame, const Reference& referen
   std::vector<Point> points;
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    const double x = frame.x.scale == Scale::linear ? frame.x.low + t * (frame.x.high - frame.x.low)
-                                                    : frame.x.low * std::pow(frame.x.high / frame.x.low, t);
+    const double x = frame.x.at(t);
     points.push_back(frame.at(x, x + reference.at));
   }
   return points;

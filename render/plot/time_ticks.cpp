@@ -16,14 +16,18 @@ using Days = std::chrono::sys_days;
 
 constexpr std::int64_t minute = 60, hour = 60 * minute, day = 24 * hour;
 constexpr std::size_t most_labels = 9;  // as on axes of numbers
-constexpr double shortest = 4;          // seconds: fractions of one are numbers
+/// Of a second, and what clocks write; finer ones only instants close to 1970 could have.
+constexpr int finest_digits = 12;
+/// Parts of a second that are told are at least so many steps of the double apart that holds the time: 1 µs in our days.
+constexpr double least_steps = 4;
 
 enum class Unit { seconds, months };
-/// From one tick to the next; `minor` parts of it get small ticks.
+/// From one tick to the next, `count` of the last of `digits` decimals; `minor` parts of it get small ticks.
 struct Step {
   Unit unit;
   std::int64_t count;
   int minor;
+  int digits = 0;
 };
 constexpr std::int64_t year = 12;  // months
 constexpr Step steps[] = {{Unit::seconds, 1, 1},
@@ -62,10 +66,33 @@ constexpr Step steps[] = {{Unit::seconds, 1, 1},
                           {Unit::months, 2000 * year, 4},
                           {Unit::months, 5000 * year, 5}};
 
+constexpr std::int64_t tens(int n) { return n == 0 ? 1 : 10 * tens(n - 1); }
+
+/// How many decimals of a second doubles between these can tell; nothing if they have fewer than two such places between them.
+std::optional<int> told_digits(const Span& span) {
+  const double largest = std::max(std::abs(span.low), std::abs(span.high));
+  const double step = least_steps * (std::nextafter(largest, INFINITY) - largest);
+  if (step > 1) return {};
+  int digits = 0;
+  while (digits < finest_digits && 1 / static_cast<double>(tens(digits + 1)) >= step) ++digits;
+  if (span.high - span.low < 2 / static_cast<double>(tens(digits))) return {};
+  return digits;
+}
+
+/// Finest first, those of parts of a second where their places can be told.
+std::vector<Step> steps_from(int digits) {
+  std::vector<Step> all;
+  for (int n = digits; n > 0; --n)
+    for (const std::int64_t count : {1, 2, 5}) all.push_back({Unit::seconds, count, count == 2 ? 4 : 5, n});
+  all.insert(all.end(), std::begin(steps), std::end(steps));
+  return all;
+}
+
 struct Moment {
   int years;
   unsigned months, days;
   std::int64_t second;  ///< of the day
+  std::int64_t part = 0;
 };
 
 std::int64_t floor_divided(std::int64_t a, std::int64_t b) {
@@ -91,6 +118,30 @@ double month_begin(std::int64_t month) {
 std::int64_t month_of(double seconds) {
   const auto m = moment_of(static_cast<std::int64_t>(std::floor(seconds)));
   return m.years * year + static_cast<std::int64_t>(m.months) - 1;
+}
+
+/// The same of an instant that is told with so many decimals.
+Moment moment_of(double seconds, int digits) {
+  if (digits == 0) return moment_of(static_cast<std::int64_t>(seconds));
+  const auto whole = tens(digits);
+  const auto parts = std::llround(seconds * static_cast<double>(whole));
+  auto moment = moment_of(floor_divided(parts, whole));
+  moment.part = parts - floor_divided(parts, whole) * whole;
+  return moment;
+}
+
+/// Places every `count` of the last of these decimals within the axis, if they are not too many.
+std::vector<double> parts_of_seconds(const Span& span, const Step& step, std::size_t most) {
+  const auto whole = tens(step.digits);
+  const double scale = static_cast<double>(whole), every = static_cast<double>(step.count) / scale;
+  std::vector<double> found;
+  if ((span.high - span.low) / every > static_cast<double>(most)) return found;
+  for (auto n = static_cast<std::int64_t>(std::floor(span.low / every)) - 1;; ++n) {
+    const auto parts = n * step.count, seconds = floor_divided(parts, whole);
+    const double at = static_cast<double>(seconds) + static_cast<double>(parts - seconds * whole) / scale;
+    if (at > span.high) return found;
+    if (at >= span.low) found.push_back(at);
+  }
 }
 
 /// Places every `count` units within the axis, if they are not too many.
@@ -119,10 +170,35 @@ std::vector<double> places(const Span& span, Unit unit, std::int64_t count, std:
   return found;
 }
 
+std::vector<double> places(const Span& span, const Step& step, std::size_t most) {
+  return step.digits > 0 ? parts_of_seconds(span, step, most) : places(span, step.unit, step.count, most);
+}
+
+/// Between those of `step`; none where they would be the same or cannot be told.
+std::vector<double> minor_places(const Span& span, const Step& step, int digits) {
+  constexpr std::size_t most = 200;
+  if (step.unit == Unit::months && step.count == 1) return {};
+  if (step.digits == 0) return places(span, step.unit, step.count / step.minor, most);
+  if (step.count == 5) return places(span, {Unit::seconds, 1, 1, step.digits}, most);
+  if (step.digits == digits) return {};
+  return places(span, {Unit::seconds, step.count == 2 ? 5 : 2, 1, step.digits + 1}, most);
+}
+
+/// Labels of seconds alone, behind the minute of the first, for axes across the end of a minute that have no room for more.
+void label_briefly(Ticks& ticks, const Step& step) {
+  for (auto& tick : ticks.major) {
+    const auto m = moment_of(tick.value, step.digits);
+    tick.label = fmt::format(":{:02}.{:0{}}", m.second % minute, m.part, step.digits);
+  }
+  const auto m = moment_of(ticks.major.front().value, step.digits);
+  ticks.factor = fmt::format("from {:04}-{:02}-{:02} {:02}:{:02}", m.years, m.months, m.days, m.second / hour,
+                             m.second / minute % minute);
+}
+
 /// Labels that leave out what all of them share, which stands in `factor`.
 void label(Ticks& ticks, const Step& step) {
   std::vector<Moment> moments;
-  for (const auto& tick : ticks.major) moments.push_back(moment_of(static_cast<std::int64_t>(tick.value)));
+  for (const auto& tick : ticks.major) moments.push_back(moment_of(tick.value, step.digits));
   const auto all = [&](auto&& same) {
     return std::all_of(moments.begin(), moments.end(),
                        [&](const Moment& m) { return same(m, moments.front()); });
@@ -131,9 +207,14 @@ void label(Ticks& ticks, const Step& step) {
   const bool one_day = one_year && all([](const Moment& a, const Moment& b) {
                          return a.months == b.months && a.days == b.days;
                        });
-  const bool has_days = step.unit == Unit::seconds, has_clock = has_days && step.count % day != 0;
+  const bool has_days = step.unit == Unit::seconds,
+             has_clock = has_days && (step.digits > 0 || step.count % day != 0);
   const bool has_months = has_days || step.count % year != 0;
-  const bool has_seconds = has_clock && step.count % minute != 0;
+  const bool has_seconds = has_clock && (step.digits > 0 || step.count % minute != 0);
+  // such labels are long, and the minute is told once
+  const bool one_minute = step.digits > 0 && one_day && all([](const Moment& a, const Moment& b) {
+                            return a.second / minute == b.second / minute;
+                          });
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const auto& m = moments[i];
     std::string text;
@@ -141,16 +222,18 @@ void label(Ticks& ticks, const Step& step) {
     if (has_months && !(has_clock && one_day))
       text += fmt::format("{}{:02}", text.empty() ? "" : "-", m.months);
     if (has_days && !(has_clock && one_day)) text += fmt::format("-{:02}", m.days);
-    if (has_clock)
+    if (has_clock && !one_minute)
       text +=
           fmt::format("{}{:02}:{:02}", text.empty() ? "" : " ", m.second / hour, m.second / minute % minute);
     if (has_seconds) text += fmt::format(":{:02}", m.second % minute);
+    if (step.digits > 0) text += fmt::format(".{:0{}}", m.part, step.digits);
     ticks.major[i].label = text;
   }
   if (moments.empty() || !has_months || !one_year) return;
   const auto& m = moments.front();
   ticks.factor = has_clock && one_day ? fmt::format("{:04}-{:02}-{:02}", m.years, m.months, m.days)
                                       : fmt::format("{:04}", m.years);
+  if (one_minute) ticks.factor += fmt::format(" {:02}:{:02}", m.second / hour, m.second / minute % minute);
 }
 
 bool fits(const Ticks& ticks, const Span& span, double length, double size, bool horizontal) {
@@ -166,23 +249,18 @@ bool fits(const Ticks& ticks, const Span& span, double length, double size, bool
   return true;
 }
 
-}  // namespace
-
-Calendar calendar() { return {month_begin(year), month_begin(10'000 * year) - 1}; }
-
-std::optional<Ticks> time_ticks(const Span& span, double length, double size, bool horizontal) {
-  const auto [first, last] = calendar();
-  if (!(span.low >= first && span.high <= last && span.high - span.low >= shortest)) return {};
+/// The finest ticks whose labels fit, two at least if such are found. `brief`: those of seconds alone.
+std::optional<Ticks> finest(const Span& span, int digits, bool brief, double length, double size,
+                            bool horizontal) {
   std::optional<Ticks> few;
-  for (const Step& step : steps) {
+  for (const Step& step : steps_from(digits)) {
+    if (brief && step.digits == 0) break;
     Ticks ticks;
-    for (const double at : places(span, step.unit, step.count, most_labels)) ticks.major.push_back({at, {}});
+    for (const double at : places(span, step, most_labels)) ticks.major.push_back({at, {}});
     if (ticks.major.empty() || ticks.major.size() > most_labels) continue;
-    label(ticks, step);
+    brief ? label_briefly(ticks, step) : label(ticks, step);
     if (!fits(ticks, span, length, size, horizontal)) continue;
-    const auto small = step.unit == Unit::months && step.count == 1
-                           ? std::vector<double>()
-                           : places(span, step.unit, step.count / step.minor, 200);
+    const auto small = minor_places(span, step, digits);
     if (static_cast<double>(small.size()) <= length / 3)
       for (const double at : small)
         if (std::none_of(ticks.major.begin(), ticks.major.end(),
@@ -192,6 +270,22 @@ std::optional<Ticks> time_ticks(const Span& span, double length, double size, bo
     if (!few) few = std::move(ticks);
   }
   return few;
+}
+
+}  // namespace
+
+Calendar calendar() { return {month_begin(year), month_begin(10'000 * year) - 1}; }
+
+std::optional<Ticks> time_ticks(const Span& span, double length, double size, bool horizontal) {
+  const auto [first, last] = calendar();
+  if (!(span.low >= first && span.high <= last)) return {};
+  const auto digits = told_digits(span);
+  if (!digits) return {};
+  auto found = finest(span, *digits, false, length, size, horizontal);
+  constexpr double seconds_wrap = 30;  // of a longer axis seconds alone would stand twice
+  if ((found && found->major.size() >= 2) || span.high - span.low > seconds_wrap) return found;
+  auto brief = finest(span, *digits, true, length, size, horizontal);
+  return brief && brief->major.size() >= 2 ? brief : found;
 }
 
 }  // namespace chute::plot

@@ -45,16 +45,23 @@ const PointArray* find_one(const std::vector<PointArray>& arrays, std::string_vi
   return found == arrays.end() ? nullptr : &*found;
 }
 
-/// The name of an array without what writers add to it: a unit in brackets, blanks, `particle_`, capitals.
+/// The name of an array without what writers add to it: a unit in brackets, blanks, `particle_` or `sphere` before a capital, capitals.
 std::string plain(std::string_view name) {
   if (const auto unit = name.find_first_of("[("); unit != std::string_view::npos && unit > 0)
     name = name.substr(0, unit);
+  name = trimmed(name);
   std::string text;
-  for (const char c : trimmed(name)) text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const std::string_view of : {"particle", "grain"})
-    if (text.starts_with(of) && text.size() > of.size() + 1 &&
-        std::string_view("_ -.").find(text[of.size()]) != std::string_view::npos)
-      text.erase(0, of.size() + 1);
+  for (const char c : name) text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const std::string_view of : {"particle", "grain", "sphere"}) {
+    if (!text.starts_with(of) || text.size() <= of.size() + 1) continue;
+    const bool parted = std::string_view("_ -.").find(text[of.size()]) != std::string_view::npos;
+    const bool capital = std::isupper(static_cast<unsigned char>(name[of.size()])) != 0 &&
+                         std::islower(static_cast<unsigned char>(name[of.size() - 1])) != 0;
+    if (parted || capital) {
+      text.erase(0, of.size() + (parted ? 1 : 0));
+      break;
+    }
+  }
   while (text.ends_with('_')) text.pop_back();
   return text;
 }
@@ -73,15 +80,26 @@ const PointArray* find_any(const std::vector<PointArray>& arrays, Names names) {
   return nullptr;
 }
 
-/// LAMMPS may write a vector as three scalars, whose names are a stem and x, y, z.
+/// LAMMPS and tables write a vector as three scalars, whose names are a stem and x, y, z.
 struct Vector {
   std::string_view name;
   Names names;
-  std::string_view stem;
+  std::string_view stems[3];
+
+  /// Which component an array of this name is, by one of the stems; -1 of none.
+  int component(std::string_view array) const {
+    const auto text = plain(array);
+    for (const auto stem : stems)
+      if (text.size() == stem.size() + 1 && text.starts_with(stem))
+        if (const auto c = std::string_view("xyz").find(text.back()); c != std::string_view::npos)
+          return static_cast<int>(c);
+    return -1;
+  }
 };
-const Vector vectors[] = {{fields::velocity.name, velocity_names, "v"},
-                          {fields::angular_velocity.name, spin_names, "omega"},
-                          {fields::force.name, force_names, "f"}};
+const Vector vectors[] = {
+    {fields::velocity.name, velocity_names, {"v", "v_", "velocity_"}},
+    {fields::angular_velocity.name, spin_names, {"omega", "omega_", "angular_velocity_"}},
+    {fields::force.name, force_names, {"f", "f_", "force_"}}};
 
 bool has(Names names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -109,22 +127,20 @@ bool is_wanted(std::string_view name, const std::vector<std::string>& wanted, co
   return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& one) {
     const bool alias = std::any_of(std::begin(groups), std::end(groups),
                                    [&](Names group) { return has(group, one) && is_plain(group, name); });
-    const bool part = std::any_of(std::begin(vectors), std::end(vectors), [&](const Vector& v) {
-      return v.name == one && name.size() == v.stem.size() + 1 && name.starts_with(v.stem);
-    });
+    const bool part = std::any_of(std::begin(vectors), std::end(vectors),
+                                  [&](const Vector& v) { return v.name == one && v.component(name) >= 0; });
     return name == one || alias || part;
   });
 }
 
 void join_components(GrainFrame& frame, const Vector& vector) {
-  const auto& [name, names, stem] = vector;
-  if (find_any(frame.arrays, names)) return;
-  const PointArray* parts[3];
-  for (int c = 0; c < 3; ++c) {
-    parts[c] = find_one(frame.arrays, std::string(stem) + "xyz"[c]);
-    if ((!parts[c] && c < 2) || (parts[c] && parts[c]->components != 1)) return;
-  }
-  PointArray joined{std::string(name), 3, {}};
+  if (find_any(frame.arrays, vector.names)) return;
+  const PointArray* parts[3] = {};
+  for (const auto& array : frame.arrays)
+    if (const int c = vector.component(array.name); c >= 0 && !parts[c]) parts[c] = &array;
+  for (int c = 0; c < 3; ++c)
+    if ((!parts[c] && c < 2) || (parts[c] && (parts[c]->components != 1 || !parts[c]->words.empty()))) return;
+  PointArray joined{std::string(vector.name), 3, {}};
   for (std::size_t i = 0; i < frame.size(); ++i)
     for (const auto* part : parts) joined.values.push_back(part ? part->at(i) : 0.0);
   frame.arrays.push_back(std::move(joined));

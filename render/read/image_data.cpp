@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
+#include "read/byte_stream.hpp"
 
 namespace chute::read {
 
 ImageData read_image_data(const std::filesystem::path& path) {
-  return parse_image_data(read_file(path), path);
+  return parse_image_data(read_unpacked(path), path);
 }
 
 GridField field_of(const ImageData& data, const std::string& name, const std::filesystem::path& path) {

@@ -259,7 +259,12 @@ FileBytes network_bytes(const FrameFile& frame) {
             read_piece(frame.contacts, frame.contacts_piece->from, frame.contacts_piece->size),
             frame.contacts_piece->first_line,
             {}};
-  return std::move(read_parts(frame.contacts).at(0));
+  auto parts = read_parts(frame.contacts);
+  if (parts.size() > 1)
+    throw InputError(
+        fmt::format("{}: contacts in {} parts, of which one would be drawn: put them into one file",
+                    frame.contacts.string(), parts.size()));
+  return std::move(parts.at(0));
 }
 
 }  // namespace chute::read

@@ -32,6 +32,8 @@ struct FileBytes {
   std::string bytes;
   std::uint64_t first_line = 1;  ///< of the bytes in the file
   std::string units = {};        ///< that the file names at its begin only
+  std::string named =
+      {};  ///< of an index that VTK's own reader follows: what stands for the bytes of all files that it names
 };
 
 /// A box that repeats, or just encloses the grains: a corner and the three edges from there, which need not be square.

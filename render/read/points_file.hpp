@@ -10,7 +10,8 @@
 namespace chute::read {
 
 /// The files that hold the points of `path`: itself, or the pieces that a parallel index (.pvtp, .pvtu) or the blocks that a
-/// multi-block file (.vtm) names; of a dump or an XYZ file, its first frame. Packed files are unpacked. InputError if an index names another index or nothing.
+/// multi-block or partitioned file (.vtm, .vtpd, .vtpc) names, which may be such indexes themselves; of a dump or an XYZ file, its
+/// first frame. Packed files are unpacked. InputError if an index names nothing, or itself in a circle.
 std::vector<FileBytes> read_parts(const std::filesystem::path& path);
 
 /// What they hold as one set. `wanted` says which point arrays are to be unpacked. InputError as parse_vtk, parse_dump and parse_xyz.

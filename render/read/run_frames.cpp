@@ -109,17 +109,23 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a.size() - i < b.size() - j || (a.size() - i == b.size() - j && a < b);
 }
 
+/// What the name says that a file holds, packed or not.
+fs::path unpacked_extension(const fs::path& path) {
+  const auto extension = path.extension();
+  return extension == ".gz" || extension == ".zst" ? path.stem().extension() : extension;
+}
+
 /// Tables hold contacts, never grains.
 bool is_frame(const fs::path& path) {
-  const auto extension = path.extension();
+  const auto extension = unpacked_extension(path);
   constexpr std::string_view known[] = {".vtp", ".vtu", ".vtk", ".vti", ".vts", ".vtr", ".csv"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
 /// Names the parts of one time, which are no frames then.
 bool is_index_of_parts(const fs::path& path) {
-  const auto extension = path.extension();
-  constexpr std::string_view known[] = {".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm"};
+  const auto extension = unpacked_extension(path);
+  constexpr std::string_view known[] = {".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm", ".vtpd", ".vtpc"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
@@ -156,7 +162,7 @@ std::vector<FrameFile> files_in(const fs::path& directory, const std::string& pa
     // LIGGGHTS writes its walls' box beside every dump
     if (name.starts_with('.') || name.find("boundingBox") != std::string::npos) continue;
     if (fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
-    const bool is_one = is_frame(name) && (tables || fs::path(name).extension() != ".csv");
+    const bool is_one = is_frame(name) && (tables || unpacked_extension(name) != ".csv");
     (is_index_of_parts(name) ? indexes : is_one ? names : others).push_back(name);
   }
   if (!indexes.empty()) names = indexes;
@@ -249,7 +255,11 @@ std::vector<FrameFile> find_frames(const fs::path& source) {
 void attach_networks(std::vector<FrameFile>& frames, const fs::path& source) {
   const auto networks = frames_of(source, true);
   if (networks.empty()) throw InputError(source.string() + ": no files of contacts");
-  const auto attach = [](FrameFile& frame, const FrameFile& network) {
+  const auto attach = [&](FrameFile& frame, const FrameFile& network) {
+    if (!network.more.empty())
+      throw InputError(
+          fmt::format("{}: contacts in {} parts, of which one would be drawn: put them into one file",
+                      source.string(), 1 + network.more.size()));
     frame.contacts = network.path, frame.contacts_piece = network.piece;
   };
   const auto have_times = [](const std::vector<FrameFile>& files) {

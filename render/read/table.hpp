@@ -24,7 +24,8 @@ struct Table {
   std::vector<std::string> header;             ///< column names
   std::vector<std::vector<std::string>> rows;  ///< each as long as `header`
   std::vector<std::size_t> lines;              ///< of each row in the file, from 1
-  char separator = ',';                        ///< of cells; behind `;` numbers may have decimal commas
+  char separator =
+      ',';  ///< of cells, a blank for any number of them; behind others than commas numbers may have decimal commas
 
   bool has(std::string_view name) const;
   /// A column as numbers; an empty cell, N/A, NA, NaN, null or a dash is NaN ("not known"). InputError `FILE:LINE: …` for an unknown column
@@ -42,12 +43,12 @@ struct Table {
   std::size_t index(std::string_view name) const;
 };
 
-/// Reads comma-separated values, or such with `;` between cells where that, and no comma, divides the header and the first row
-/// into as many cells: numbers may then have decimal commas. Lines that start with `#` are comments, the first other line is the header,
-/// or, where that is of numbers, the last comment before it that names as many columns (numpy.savetxt); a byte order mark
-/// and empty lines are skipped, cells may stand in double quotes, with a quote in them doubled. InputError
-/// `FILE:LINE: …` for a row with more or fewer cells than the header, a quote that does not end, a column
-/// named twice; `FILE: …` if there is no header.
+/// Reads comma-separated values (RFC 4180), or such with `;`, tabs or blanks between cells where these, and no comma, divide the header
+/// and the first row into as many cells: numbers may then have decimal commas. Lines that start with `#` are comments, the first
+/// other line is the header, or, where that is of numbers, the last comment before it that names as many columns (numpy.savetxt); a
+/// byte order mark, empty lines and a separator at the ends of lines are skipped; cells may stand in double quotes, with a quote in
+/// them doubled, and line breaks. What is not UTF-8 is Latin-1. InputError `FILE:LINE: …` for a row with more or fewer cells than the
+/// header, a quote that does not end, numbers in place of names, a column named twice; `FILE: …` if there is no header.
 Table read_table(const std::filesystem::path& path);
 
 /// The same from text; `name` stands for the file in messages.

@@ -245,26 +245,45 @@ XmlHead xml_head(std::string_view text) {
   return head;
 }
 
-std::optional<std::vector<std::string>> part_sources(std::string_view text) {
-  const auto [is_xml, type] = xml_head(text);
-  const bool parallel = type == "PPolyData" || type == "PUnstructuredGrid";
-  if (!is_xml || (!parallel && type != "vtkMultiBlockDataSet")) return {};
-  struct Parts {
+namespace {
+
+/// Values of the attribute `key` of all these elements.
+std::vector<std::string> attributes_in(std::string_view text, std::string_view element,
+                                       std::string_view key) {
+  struct Wanted {
     std::string_view element, key;
-    std::vector<std::string> sources;
-  } parts{parallel ? "Piece" : "DataSet", parallel ? "Source" : "file", {}};
+    std::vector<std::string> values;
+  } wanted{element, key, {}};
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
                                                                             XML_ParserFree);
-  XML_SetUserData(parser.get(), &parts);
+  XML_SetUserData(parser.get(), &wanted);
   XML_SetStartElementHandler(parser.get(), [](void* user, const XML_Char* name, const XML_Char** attributes) {
-    auto& of = *static_cast<Parts*>(user);
+    auto& of = *static_cast<Wanted*>(user);
     if (of.element != name) return;
     for (; *attributes; attributes += 2)
-      if (of.key == attributes[0]) of.sources.emplace_back(attributes[1]);
+      if (of.key == attributes[0]) of.values.emplace_back(attributes[1]);
   });
   const auto whole = without_tail(text);
   XML_Parse(parser.get(), whole.data(), static_cast<int>(std::min<std::size_t>(whole.size(), 1U << 30U)), 1);
-  return std::move(parts.sources);
+  return std::move(wanted.values);
+}
+
+}  // namespace
+
+std::optional<std::vector<std::string>> part_sources(std::string_view text) {
+  const auto [is_xml, type] = xml_head(text);
+  const bool parallel = type == "PPolyData" || type == "PUnstructuredGrid";
+  const bool blocks = type == "vtkMultiBlockDataSet" || type == "vtkPartitionedDataSet" ||
+                      type == "vtkPartitionedDataSetCollection";
+  if (!is_xml || (!parallel && !blocks)) return {};
+  return parallel ? attributes_in(text, "Piece", "Source") : attributes_in(text, "DataSet", "file");
+}
+
+std::vector<std::string> named_files(std::string_view text) {
+  const auto [is_xml, type] = xml_head(text);
+  if (!is_xml) return {};
+  if (type.starts_with('P') && type != "PolyData") return attributes_in(text, "Piece", "Source");
+  return type.starts_with("vtk") ? attributes_in(text, "DataSet", "file") : std::vector<std::string>();
 }
 
 }  // namespace chute::read

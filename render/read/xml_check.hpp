@@ -22,7 +22,10 @@ struct XmlHead {
 /// What an XML file says first, however it is written: comments, blanks, single quotes and other attributes.
 XmlHead xml_head(std::string_view text);
 
-/// The files that an index of parts names (.pvtp, .pvtu, .vtm); nothing if the text is no such index.
+/// The files that an index of parts names (.pvtp, .pvtu, .vtm, .vtpd, .vtpc); nothing if the text is no such index.
 std::optional<std::vector<std::string>> part_sources(std::string_view text);
+
+/// All files that an index of whatever kind names, in its order; none of a text that holds its data itself.
+std::vector<std::string> named_files(std::string_view text);
 
 }  // namespace chute::read

@@ -67,9 +67,9 @@ std::vector<double> ColorField::values(const read::GrainFrame& frame) const {
   std::vector<double> result(frame.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (part == Part::magnitude) {
-      double squared = 0;
-      for (int c = 0; c < source->components; ++c) squared += source->at(i, c) * source->at(i, c);
-      result[i] = std::sqrt(squared);
+      double length = 0;  // hypot, for squares leave what doubles can hold
+      for (int c = 0; c < source->components; ++c) length = std::hypot(length, source->at(i, c));
+      result[i] = length;
     } else {
       result[i] = sign * source->at(i, component);
     }

@@ -224,7 +224,7 @@ void Furniture::draw_bar(DisplayList& list) const {
   const double size = small * em, tick_length = 0.26 * em, hairline = std::max(1.0, 0.045 * em);
   const auto ticks = bar_ticks(survey_, length, size, !upright);
   for (const auto& tick : ticks.major) {
-    const double at = length * (tick.value - survey_.low) / (survey_.high - survey_.low);
+    const double at = length * plot::Span{survey_.low, survey_.high}.fraction(tick.value);
     const auto text = plot::set_text(tick.label, size);
     if (upright) {
       const double y = bar.bottom - at;

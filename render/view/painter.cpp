@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "common/fields.hpp"
+#include "plot/scale.hpp"
 
 namespace chute::view {
 namespace {
@@ -47,7 +48,7 @@ std::vector<Rgb> Studio::colors(const read::GrainFrame& frame) const {
       result[i] =
           kind_color(std::lower_bound(kinds.begin(), kinds.end(), std::llround(values[i])) - kinds.begin());
     else
-      result[i] = map.at((values[i] - survey.low) / (survey.high - survey.low));
+      result[i] = map.at(plot::Span{survey.low, survey.high}.fraction(values[i]));
   }
   return result;
 }
@@ -60,7 +61,7 @@ Rgb Studio::kind_color(std::ptrdiff_t kind) const {
 
 Rgb Studio::chain_color(double force) const {
   if (!survey.field.forces) return palette.chain;
-  return map.at((force - survey.low) / (survey.high - survey.low));
+  return map.at(plot::Span{survey.low, survey.high}.fraction(force));
 }
 
 bool Studio::is_cut(const Eigen::Vector3d& place) const {

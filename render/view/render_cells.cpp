@@ -142,8 +142,9 @@ void keep_shape(plot::Figure& figure, const Look& look) {
 }  // namespace
 
 bool are_cells(const std::vector<read::FrameFile>& frames) {
-  return std::any_of(frames.begin(), frames.end(),
-                     [](const auto& f) { return f.path.extension() == ".vti"; });
+  return std::any_of(frames.begin(), frames.end(), [](const auto& f) {
+    return f.path.extension() == ".vti" || f.path.stem().extension() == ".vti";  // packed
+  });
 }
 
 RenderReport render_cells(const RenderJob& job, const std::vector<read::FrameFile>& frames,
@@ -170,7 +171,9 @@ RenderReport render_cells(const RenderJob& job, const std::vector<read::FrameFil
     if (job.progress) job.progress("reading", i + 1, frames.size());
   }
   if (style.range) look.low = style.range->first, look.high = style.range->second;
-  if (!(look.high > look.low)) look.high = look.low + 1;
+  if (!(look.high > look.low))
+    look.high =
+        std::min(look.low + std::max(1.0, std::abs(look.low) / 2), std::numeric_limits<double>::max());
   std::optional<Movie> movie;
   if (!job.movie.empty()) {
     if (Movie::kind_of(job.movie) == Movie::Kind::gif)

@@ -186,7 +186,7 @@ class FrameDrawer {
     Hash hash;
     add_part(hash, common_);
     add_part(hash, fmt::format("{} {}", survey_.times[number], job_.dpi));
-    for (const auto& part : files) add_part(hash, part.bytes);
+    for (const auto& part : files) add_part(hash, part.bytes), add_part(hash, part.named);
     add_part(hash, network.bytes);
     for (std::size_t i = oldest; i < number; ++i) add_part(hash, earlier_[i - first_earlier_].hash);
     const std::size_t impacts = beside_.until(survey_.times[number]);
@@ -260,7 +260,7 @@ class FrameDrawer {
     if (i < first_earlier_ + earlier_.size()) return;
     auto files = read::read_files(frames_[i]);
     Hash hash;
-    for (const auto& part : files) add_part(hash, part.bytes);
+    for (const auto& part : files) add_part(hash, part.bytes), add_part(hash, part.named);
     earlier_.push_back(
         {read::parse_frame(std::move(files), job_.meanings, {std::string(fields::id.name)}), hash.hex()});
     while (earlier_.size() > 2 * static_cast<std::size_t>(job_.style.trail) + 64)

@@ -27,7 +27,8 @@ double round_up(double x) {
   if (x == 0 || !std::isfinite(x)) return x;
   const double power = std::pow(10, std::floor(std::log10(std::abs(x)))), leading = std::abs(x) / power;
   const double step = leading <= 2 ? 0.2 : leading <= 5 ? 0.5 : 1;
-  return std::copysign(std::ceil(leading / step - 1e-9) * step * power, x);
+  const double rounded = std::copysign(std::ceil(leading / step - 1e-9) * step * power, x);
+  return std::isfinite(rounded) && power > 0 ? rounded : x;  // at either end of what doubles can hold
 }
 
 /// Decimals that tell the times of frames as they are, at most `most`. Times that are a whole number of steps, and so a little
@@ -243,10 +244,16 @@ void Surveyor::choose_range() {
     const bool from_zero =
         s.field.forces || s.field.part == ColorField::Part::magnitude || (s.low >= 0 && s.low < 0.4 * s.high);
     if (from_zero) s.low = 0, s.high = round_up(s.high);
-    if (!(s.high > s.low))
-      s.high = s.low != 0 ? s.low + std::abs(s.low) / 2 : 1, s.low -= s.low != 0 ? std::abs(s.low) / 2 : 0;
+    if (!(s.high > s.low)) {
+      const double beside = std::max(std::abs(s.low) / 2, std::numeric_limits<double>::denorm_min());
+      const double most = std::numeric_limits<double>::max();
+      if (s.low == 0)
+        s.high = 1;
+      else
+        s.high = std::min(s.low + beside, most), s.low = std::max(s.low - beside, -most);
+    }
   }
-  const double slack = 1e-9 * (s.high - s.low);
+  const double slack = 1e-9 * s.high - 1e-9 * s.low;
   s.exceeds_low = values_.seen && values_.lowest < s.low - slack;
   s.exceeds_high = values_.seen && values_.highest > s.high + slack;
 }

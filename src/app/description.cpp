@@ -4,15 +4,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
 #include "common/fields.hpp"
+#include "read/byte_stream.hpp"
+#include "read/image_data.hpp"
 #include "read/points_file.hpp"
+#include "read/run_frames.hpp"
 #include "read/table.hpp"
 #include "read/text_frames.hpp"
+#include "read/xml_check.hpp"
 #include "run/flow.hpp"
 #include "sweep/sweep.hpp"
 
@@ -81,9 +86,68 @@ void add_points(Json& into, const read::PointSet& points) {
       {"periodic", box.periodic}};
 }
 
+/// What a grid of cells holds, under the same keys; its points are those of the grid.
+void add_grid(Json& into, const read::ImageData& grid) {
+  read::PointSet whole;
+  for (const auto& [name, text] : {std::pair{fields::units, grid.units}, {fields::clock, grid.clock}})
+    if (!text.empty()) whole.field_texts.emplace_back(name, text);
+  if (grid.time) whole.field_arrays.push_back({std::string(fields::time_value), 1, {*grid.time}});
+  whole.point_arrays = grid.point_arrays, whole.cell_arrays = grid.cell_arrays;
+  add_points(into, whole);
+  std::size_t points = 1, cells = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto count = static_cast<std::size_t>(grid.points[k]);
+    points *= count, cells *= std::max<std::size_t>(1, count - 1);
+    const double last = grid.origin[k] + static_cast<double>(count - 1) * grid.spacing[k];
+    into[std::string(1, "xyz"[k])] = range_of({grid.origin[k], last});
+  }
+  into["points"] = points, into["cells"] = cells, into["grid"] = grid.points;
+}
+
+/// What files that make one set of points, or a grid, hold; when that is, if they say.
+std::optional<double> add_files(Json& into, std::vector<read::FileBytes> files) {
+  if (files.size() == 1 && read::xml_head(files[0].bytes).type == "ImageData") {
+    const auto grid = read::parse_image_data(std::move(files[0].bytes), files[0].path);
+    add_grid(into, grid);
+    return grid.time;
+  }
+  const auto points = read::parse_points(std::move(files));
+  add_points(into, points);
+  for (const auto& array : points.field_arrays)
+    if (array.name == fields::time_value && !array.values.empty()) return array.values[0];
+  return {};
+}
+
 Json of_vtk(const fs::path& path) {
   Json found{{"kind", "vtk"}, {"file", path.string()}};
-  add_points(found, read::parse_points(read::read_parts(path)));
+  add_files(found, read::read_parts(path));
+  return found;
+}
+
+/// Frames in several files: an index of times, a folder, a pattern. As of a dump.
+Json of_frames(const fs::path& source) {
+  const auto frames = read::find_frames(source);
+  std::set<fs::path> files;
+  std::vector<double> times;
+  for (const auto& frame : frames) {
+    files.insert(frame.path), files.insert(frame.more.begin(), frame.more.end());
+    if (frame.time) times.push_back(*frame.time);
+  }
+  Json first;
+  const auto begin = add_files(first, read::read_files(frames.front()));
+  if (times.empty() && begin) {  // they stand in the order of their names, with their times inside
+    Json last;
+    times.push_back(*begin);
+    if (const auto end = add_files(last, read::read_files(frames.back()))) times.push_back(*end);
+  }
+  const auto& piece = frames.back().piece;
+  Json found{{"kind", "frames"},
+             {"file", source.string()},
+             {"files", files.size()},
+             {"frames", frames.size()},
+             {"time", range_of(times)},
+             {"cut_after", piece && !piece->cut_after.empty() ? Json(piece->cut_after) : Json()}};
+  found.update(first);
   return found;
 }
 
@@ -167,19 +231,42 @@ Json of_sweep(const fs::path& path) {
   return found;
 }
 
+/// By its content, packed or not.
+bool is_vtk(const fs::path& file) {
+  read::ByteStream stream(file);
+  const auto begin = stream.next();
+  return begin.starts_with("# vtk DataFile") || read::xml_head(begin).is_vtk;
+}
+
+/// A folder of files that chute render takes one by one.
+bool holds_frames(const fs::path& folder) {
+  const auto entries = fs::directory_iterator(folder);
+  return std::any_of(fs::begin(entries), fs::end(entries), [](const fs::directory_entry& entry) {
+    return entry.is_regular_file() && (entry.path().extension() == ".pvd" || is_vtk(entry.path()) ||
+                                       read::text_format_of(entry.path()).has_value());
+  });
+}
+
 }  // namespace
 
 Json describe_file(const fs::path& path) {
-  if (!fs::exists(path)) throw InputError(path.string() + ": no such file or run");
+  if (!fs::exists(path)) {
+    if (path.filename().string().find_first_of("%*?[") != std::string::npos) return of_frames(path);
+    throw InputError(path.string() + ": no such file or run");
+  }
+  if (fs::is_directory(path)) {
+    if (fs::exists(path / "sweep.toml")) return of_sweep(path);
+    return fs::exists(path / "run.json") || !holds_frames(path) ? of_run(path) : of_frames(path);
+  }
   const auto extension = path.extension();
-  if (fs::is_directory(path)) return fs::exists(path / "sweep.toml") ? of_sweep(path) : of_run(path);
   if (extension == ".csv") return of_table(path);
+  if (extension == ".pvd" || extension == ".series") return of_frames(path);
   if (const auto format = read::text_format_of(path)) return of_text_frames(path, *format);
-  constexpr std::array point_files{".vtp",  ".vtu",  ".vtk",  ".vts",  ".vtr",
-                                   ".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm"};
-  if (std::find(point_files.begin(), point_files.end(), extension) != point_files.end()) return of_vtk(path);
-  throw InputError(fmt::format("{}: neither a run directory nor a {} or .csv file, a dump or an XYZ file",
-                               path.string(), fmt::join(point_files, ", ")));
+  if (is_vtk(path)) return of_vtk(path);
+  if (extension == ".tsv" || extension == ".txt" || extension == ".dat") return of_table(path);
+  throw InputError(
+      path.string() +
+      ": neither a run directory nor a table (.csv, .tsv, .txt, .dat), a VTK file, an index of times (.pvd, .vtk.series), a dump or an XYZ file");
 }
 
 }  // namespace chute::app

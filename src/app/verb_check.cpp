@@ -135,7 +135,9 @@ void add_check(CLI::App& app) {
       else
         show(found);
     }
-    if (a->json) fmt::print("{}\n", nlohmann::ordered_json{{"scenes", all}}.dump(2));
+    if (a->json)
+      fmt::print("{}\n", nlohmann::ordered_json{{"scenes", all}}.dump(
+                             2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   });
 }
 

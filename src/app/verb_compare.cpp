@@ -182,7 +182,8 @@ void run(const CompareArguments& a) {
       show(outcome);
   }
   if (a.json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"pictures", pictures}, {"different", different}}.dump(2));
+    fmt::print("{}\n", nlohmann::ordered_json{{"pictures", pictures}, {"different", different}}.dump(
+                           2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   if (!different) return;
   if (pairs.size() == 1) throw WorkError(fmt::format("{} differs from {}", a.actual[0], a.expected));
   throw WorkError(fmt::format("{} of {} files differ", different, pairs.size()));

@@ -28,6 +28,14 @@ std::string span_text(const Json& range) {
 
 std::string text_of(const Json& value) { return value.get<std::string>(); }
 
+/// A unit on a terminal: \sqrt{gd} as sqrt(gd).
+std::string plain_unit(std::string unit) {
+  for (const auto& [from, to] : {std::pair{"\\sqrt{", "sqrt("}, {"}", ")"}})
+    for (std::size_t at = 0; (at = unit.find(from, at)) != std::string::npos;)
+      unit.replace(at, std::string_view(from).size(), to);
+  return unit;
+}
+
 std::string vector_text(const Json& values) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", values[0].get<double>(), values[1].get<double>(),
                      values[2].get<double>());
@@ -35,14 +43,15 @@ std::string vector_text(const Json& values) {
 
 void show_points(const Json& file) {
   if (file.contains("frames")) {
-    fmt::print("{}: {} frame{}, {} {}; of the first:\n", text_of(file["file"]),
-               file["frames"].get<std::size_t>(), file["frames"] == 1 ? "" : "s",
-               file["texts"].contains("clock") ? text_of(file["texts"]["clock"]) : "time",
-               span_text(file["time"]));
+    fmt::print(
+        "{}: {} frame{}{}, {} {}; of the first:\n", text_of(file["file"]), file["frames"].get<std::size_t>(),
+        file["frames"] == 1 ? "" : "s",
+        file.value("files", 1) > 1 ? fmt::format(" in {} files", file["files"].get<std::size_t>()) : "",
+        file["texts"].contains("clock") ? text_of(file["texts"]["clock"]) : "time", span_text(file["time"]));
     if (file["cut_after"].is_string()) fmt::print("  left out at the end: {}\n", text_of(file["cut_after"]));
   }
-  fmt::print("{}: {} points, {} lines and polygons\n", text_of(file["file"]),
-             file["points"].get<std::size_t>(), file["cells"].get<std::size_t>());
+  fmt::print("{}: {} points, {} {}\n", text_of(file["file"]), file["points"].get<std::size_t>(),
+             file["cells"].get<std::size_t>(), file.contains("grid") ? "cells" : "lines and polygons");
   fmt::print("  place  x {}   y {}   z {}\n", span_text(file["x"]), span_text(file["y"]),
              span_text(file["z"]));
   for (const auto& array : file["arrays"]) {
@@ -52,7 +61,7 @@ void show_points(const Json& file) {
             ? fmt::format("{}", fmt::join(array["words"].get<std::vector<std::string>>(), ", "))
             : span_text(array["range"]);
     fmt::print("  {:<6} {:<18} {} component{}  {} {}\n", text_of(array["where"]), text_of(array["name"]),
-               components, components == 1 ? " " : "s", values, text_of(array["unit"]));
+               components, components == 1 ? " " : "s", values, plain_unit(text_of(array["unit"])));
   }
   for (const auto& [name, text] : file["texts"].items())
     fmt::print("  field  {:<18} {}\n", name, text_of(text));
@@ -192,7 +201,7 @@ void columns(const fs::path& path) {
   if (kind == "table") {
     for (const auto& column : found["columns"]) names.push_back(text_of(column["name"]));
     for (const auto& comment : found["comments"]) comments += text_of(comment);
-  } else if (kind == "vtk") {
+  } else if (kind == "vtk" || kind == "frames") {
     for (const auto& array : found["arrays"])
       if (array["where"] != "field") names.push_back(text_of(array["name"]));
   } else {
@@ -202,8 +211,8 @@ void columns(const fs::path& path) {
   const auto* table = find_table_text(path.filename().string(), names);
   if (!table)
     throw InputError(path.string() + ": not a file as chute writes them: what its columns mean is not known");
-  const bool si =
-      kind == "vtk" ? found["texts"].value("units", "") == "SI" : comments.find("units: SI") != comments.npos;
+  const bool si = kind != "table" ? found["texts"].value("units", "") == "SI"
+                                  : comments.find("units: SI") != comments.npos;
   fmt::print("{}: a row is {}\n", path.string(), table->rows);
   for (const auto& name : names) {
     const auto column = column_text(*table, name);
@@ -215,12 +224,13 @@ void columns(const fs::path& path) {
 
 void info(const fs::path& path, bool json) {
   const auto found = describe_file(path);
-  if (json) return fmt::print("{}\n", found.dump(2));
+  if (json)
+    return fmt::print("{}\n", found.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   const auto kind = text_of(found["kind"]);
   if (kind == "run") show_run(found, path);
   if (kind == "sweep") show_sweep(found);
   if (kind == "table") show_table(found);
-  if (kind == "vtk" || kind == "dump" || kind == "xyz") show_points(found);
+  if (kind == "vtk" || kind == "frames" || kind == "dump" || kind == "xyz") show_points(found);
 }
 
 }  // namespace
@@ -233,8 +243,10 @@ void add_info(CLI::App& app) {
     bool json = false, verify = false, columns = false;
   };
   auto a = std::make_shared<Arguments>();
-  verb->add_option("path", a->path,
-                   "run directory, folder of a sweep, VTK file, dump of LAMMPS, XYZ file or CSV table");
+  verb->add_option(
+      "path", a->path,
+      "run directory, folder of a sweep, CSV table; VTK file, dump of LAMMPS or XYZ file, or a folder, an index of times "
+      "or a pattern of these, as chute render takes them");
   verb->add_flag("--columns", a->columns,
                  "what the columns of a table or the arrays of a VTK file mean; without a file: of all");
   auto* json = verb->add_flag("--json", a->json, "for programs: keys as in README.md");

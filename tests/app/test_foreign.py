@@ -127,6 +127,125 @@ class Dumps(Foreign):
         self.assertEqual((found["kind"], found["time"]), ("xyz", [0.5, 0.5]))
         self.assertEqual(found["arrays"][0]["words"], ["Si", "O"])
 
+    def test_info_takes_whatever_render_takes(self):
+        """A pattern, a folder, an index, one file a process: the same frames as those that are drawn."""
+        def part(step, grains):
+            rows = "".join("%d %d 0 0 0.5\n" % (i, i + step) for i in grains)
+            return ("ITEM: TIMESTEP\n%d\nITEM: NUMBER OF ATOMS\n%d\nITEM: BOX BOUNDS pp pp pp\n0 20\n0 20\n0 20\n"
+                    "ITEM: ATOMS id x y z radius\n" % (step, len(grains)) + rows)
+        os.mkdir(self.path("split"))
+        for k, grains in enumerate((range(0, 4), range(4, 10), range(0))):  # a process may have none
+            self.write("split/dump.%d" % k, part(0, grains) + part(7, grains))
+        os.mkdir(self.path("vtk"))
+        for k in range(3):
+            self.write("vtk/s%d.vtk" % (9 + k), vtk({"radius": [0.4] * 4}))
+        self.write("vtk.vtk.series", json.dumps({"files": [{"name": "vtk/s%d.vtk" % (9 + k), "time": 0.5 * k} for k in range(3)]}))
+        sets = "".join('<DataSet timestep="%d" part="%d" file="vtk/s%d.vtk"/>' % (k // 2, k % 2, 9 + k) for k in range(2))
+        self.write("parts.pvd", '<VTKFile type="Collection"><Collection>%s</Collection></VTKFile>' % sets)
+        with gzip.open(self.path("packed.vtk.gz"), "wt") as file:
+            file.write(vtk({"radius": [0.4] * 4}))
+        for source, frames, files, time, points in (
+                ("split/dump.%", 2, 3, [0, 7], 10), ("split/dump.0", 2, None, [0, 7], 4), ("vtk", 3, 3, None, 4),
+                ("vtk/s*.vtk", 3, 3, None, 4), ("vtk.vtk.series", 3, 3, [0, 1], 4), ("parts.pvd", 1, 2, [0, 0], 8),
+                ("packed.vtk.gz", None, None, None, 4)):
+            found = json.loads(self.call("info", source, "--json").stdout)
+            self.assertEqual((found.get("frames"), found.get("files"), found.get("time"), found["points"]), (frames, files, time, points), source)
+            if frames:
+                self.assertEqual(len(self.picture(source)), frames)
+                self.assertIn("%d frame" % frames, self.call("info", source).stdout)
+        for command in (["info", "split"], ["render", "split", "-o", "p"], ["convert", "split", "--to", "csv", "-o", "c"],
+                        ["measure", "split", "-o", "m"]):
+            self.assertIn("give 'split/dump.%'", self.call(*command, status=2).stderr)
+        self.call("convert", "split/dump.%", "--to", "csv", "-o", "c")
+        self.call("measure", "split/dump.%", "-o", "m", "--quiet")
+        self.assertIn("no such file", self.call("info", "other.%", status=2).stderr)
+        self.assertIn("no such file", self.call("info", "other", status=2).stderr)
+
+    def test_info_of_a_grid_of_cells(self):
+        self.write("g.vti", '<VTKFile type="ImageData"><ImageData WholeExtent="0 3 0 2 0 0" Origin="1 0 0" Spacing="2 1 1"><Piece Extent="0 3 0 2 0 0">'
+                   '<CellData><DataArray type="Float64" Name="eta" format="ascii">0 1 2 3 4 5</DataArray></CellData></Piece></ImageData></VTKFile>')
+        found = json.loads(self.call("info", "g.vti", "--json").stdout)
+        self.assertEqual((found["points"], found["cells"], found["grid"]), (12, 6, [4, 3, 1]))
+        self.assertEqual((found["x"], found["y"], found["arrays"][0]["range"]), ([1, 7], [0, 2], [0, 5]))
+        self.assertIn("12 points, 6 cells", self.call("info", "g.vti").stdout)
+
+    def test_pictures_of_indexes_follow_all_their_files(self):
+        """Blocks in blocks, partitions and pieces: all grains are there, and what changes in any file is drawn anew."""
+        def points(y, kind):
+            places = "".join("%d %g 0 " % (i, y) for i in range(3))
+            radii = '<PointData><DataArray type="Float64" Name="radius" format="ascii">0.4 0.4 0.4</DataArray></PointData>'
+            xyz = '<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">%s</DataArray></Points>' % places
+            if kind == "vtp":
+                return ('<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="3" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
+                        'NumberOfPolys="0">%s%s</Piece></PolyData></VTKFile>' % (radii, xyz))
+            return ('<VTKFile type="StructuredGrid"><StructuredGrid WholeExtent="0 2 0 0 0 0"><Piece Extent="0 2 0 0 0 0">%s%s</Piece>'
+                    '</StructuredGrid></VTKFile>' % (radii, xyz))
+        blocks = lambda *names: ('<VTKFile type="vtkMultiBlockDataSet" version="1.0"><vtkMultiBlockDataSet>%s</vtkMultiBlockDataSet></VTKFile>' %
+                                 "".join('<DataSet index="%d" file="%s"/>' % pair for pair in enumerate(names)))
+        os.mkdir(self.path("in"))
+        self.write("in/a.vtp", points(0, "vtp")), self.write("b.vtp", points(1, "vtp")), self.write("c.vts", points(2, "vts"))
+        self.write("in/inner.vtm", blocks("a.vtp"))
+        self.write("outer.vtm", blocks("in/inner.vtm", "b.vtp"))
+        self.write("parts.vtpd", blocks("in/inner.vtm", "b.vtp").replace("vtkMultiBlockDataSet", "vtkPartitionedDataSet"))
+        self.write("pieces.pvts", '<VTKFile type="PStructuredGrid"><PStructuredGrid WholeExtent="0 2 0 0 0 0" GhostLevel="0"><PPoints>'
+                   '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints><PPointData><PDataArray type="Float64" Name="radius"/></PPointData>'
+                   '<Piece Extent="0 2 0 0 0 0" Source="c.vts"/></PStructuredGrid></VTKFile>')
+        draw = lambda source: self.call("render", source, "-o", "p-" + source, "--size", "96x96").stderr
+        for source, file, kind, count in (("outer.vtm", "in/a.vtp", "vtp", 6), ("outer.vtm", "b.vtp", "vtp", 6), ("parts.vtpd", "in/a.vtp", "vtp", 6),
+                                          ("pieces.pvts", "c.vts", "vts", 3)):
+            self.assertEqual(json.loads(self.call("info", source, "--json").stdout)["points"], count)
+            draw(source)
+            self.assertNotIn("1 frame drawn", draw(source))
+            self.write(file, points(random.Random(source + file).uniform(3, 5), kind))
+            self.assertIn("1 frame drawn", draw(source), (source, file))
+        self.write("circle.vtm", blocks("circle.vtm"))
+        self.assertIn("indexes lead to indexes", self.call("info", "circle.vtm", status=2).stderr)
+
+    def test_colours_of_any_doubles(self):
+        """Ranges at both ends of what a double holds: each picture has the colours of the same grains from 0 to 1."""
+        usual = self.colours([0, 1, 0, 1], "0:1")
+        for low, high in ((-1.7e308, 1.7e308), (1e308, 1.7e308), (0, 5e-324), (5e-324, 1e-323), (1e17, 1e17 + 16)):
+            self.assertEqual(self.colours([low, high, low, high], "%r:%r" % (low, high)), usual, (low, high))
+            self.colours([low, high, low, high])  # a range of its own choice
+            self.colours([high] * 4)
+
+    def colours(self, values, *range_):
+        self.write("c.vtk", vtk({"radius": [0.4] * 4, "v": values}))
+        seen = self.picture("c.vtk", "--color", "v", "--bare", *(["--range", *range_] if range_ else []))[0]
+        return {seen[k:k + 3] for k in range(0, len(seen), 3) if seen.count(seen[k:k + 3]) > 300}
+
+    def test_usual_names_of_sizes_and_of_components(self):
+        sizes, speeds = [0.3, 0.4] * 2, [1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0]
+        self.write("usual.vtk", vtk({"radius": sizes, "velocity": speeds}))
+        usual = self.picture("usual.vtk")
+        for radius in ("particle_radius", "ParticleRadius", "sphereRadius", "grain-radius", "Radius%20[m]"):
+            self.write("other.vtk", vtk({radius: sizes, "vel": speeds}))
+            self.assertTrue(self.picture("other.vtk") == usual, radius)
+        for names in (("vx", "vy", "vz"), ("Velocity_X", "Velocity_Y", "Velocity_Z"), ("v_x", "v_y")):
+            parts = {name: speeds[k::3] for k, name in enumerate(names)}
+            self.write("other.vtk", vtk({"radius": sizes, **parts}))
+            self.assertTrue(self.picture("other.vtk") == usual, names)
+
+    def test_contacts_in_parts_are_not_drawn_in_part(self):
+        part = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ENTRIES a b force\n%d %d 1\n"
+        self.write("grains", dump_frame(0, "x y z"))
+        for k in range(2):
+            self.write("local.%d" % k, part % (2 * k + 1, 2 * k + 2))
+        for source in ("local.%", "local.*"):
+            self.assertIn("local.", self.call("render", "grains", "-o", "p", "--size", "96x96", "--chains", "--contacts", source, status=2).stderr)
+
+    def test_packed_frames_of_a_folder_and_of_a_pattern(self):
+        os.mkdir(self.path("post"))
+        for k in range(3):
+            with gzip.open(self.path("post", "s%d.vtk.gz" % k), "wt") as file:
+                file.write(vtk({"radius": [0.4] * 4}))
+        for source in ("post", "post/*.vtk.gz"):
+            self.assertEqual(len(self.picture(source)), 3)
+        with gzip.open(self.path("g.vti.gz"), "wt") as file:
+            file.write('<VTKFile type="ImageData"><ImageData WholeExtent="0 3 0 2 0 0" Origin="1 0 0" Spacing="2 1 1"><Piece Extent="0 3 0 2 0 0">'
+                       '<CellData><DataArray type="Float64" Name="eta" format="ascii">0 1 2 3 4 5</DataArray></CellData></Piece></ImageData></VTKFile>')
+        self.call("render", "g.vti.gz", "-o", "cells", "--size", "640x480", "--color", "eta")
+
     def test_one_that_is_being_written(self):
         self.write("d", dump_frame(0, "x y z") + dump_frame(50, "x y z")[:900])
         said = self.call("render", "d", "-o", "p", "--size", "96x96").stderr

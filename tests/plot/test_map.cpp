@@ -37,6 +37,44 @@ TEST_CASE("the ends of a map have the ends of its colours, and white is 0 where 
   CHECK(range_of(map).high == 5);
 }
 
+TEST_CASE("figures of any doubles have a page: along axes and in colours") {
+  constexpr double most = std::numeric_limits<double>::max(),
+                   least = std::numeric_limits<double>::denorm_min();
+  const std::pair<double, double> ranges[] = {{-most, most},      {1e308, std::nextafter(1e308, most)},
+                                              {1e308, most},      {-most, 1},
+                                              {least, 4 * least}, {0, least},
+                                              {least, most},      {-least, least}};
+  for (const auto& [low, high] : ranges)
+    for (const auto scale : {Scale::linear, Scale::log})
+      for (const bool with_map : {false, true}) {
+        INFO(low << " to " << high << (scale == Scale::log ? " log" : "") << (with_map ? " map" : ""));
+        Figure figure;
+        figure.panels.resize(1);
+        auto& panel = figure.panels[0];
+        if (with_map) {
+          panel.map = ramp(2);
+          panel.map->values = {low, high, low, high};
+          panel.map->contours = 2;
+        } else {
+          panel.x.scale = panel.y.scale = scale;
+          Series series;
+          series.name = "a", series.label = "a";
+          series.x = {low, high}, series.y = {high, low};
+          panel.series = {series};
+          panel.legend = Place::top_right;
+        }
+        const auto page = lay_out(figure).list;
+        CHECK(std::isfinite(page.width));
+        CHECK(std::isfinite(page.height));
+        for (const auto& item : page.items) {
+          if (const auto* fill = std::get_if<FillItem>(&item))
+            for (const auto& p : fill->path.points) REQUIRE((std::isfinite(p.x()) && std::isfinite(p.y())));
+          if (const auto* stroke = std::get_if<StrokeItem>(&item))
+            for (const auto& p : stroke->path.points) REQUIRE((std::isfinite(p.x()) && std::isfinite(p.y())));
+        }
+      }
+}
+
 TEST_CASE("cells are filled where they lie, joined along a row, and unknown ones stay blank") {
   auto map = ramp(4);
   map.values[5] = unknown;

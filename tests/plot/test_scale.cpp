@@ -122,10 +122,42 @@ TEST_CASE("any two doubles make an axis: its ticks lie on it, rise, and are as f
       const bool inside =
           log ? at >= a * (1 - 1e-6) && at <= b * (1 + 1e-6) : at >= a - slack && at <= b + slack;
       const bool rises = k == 0 || at > ticks.major[k - 1].value;
-      if (!inside || !rises || ticks.major[k].label.empty()) FAIL(a << " to " << b << ": a tick at " << at);
+      if (!inside || !rises || ticks.major[k].label.empty() || !std::isfinite(at))
+        FAIL(a << " to " << b << ": a tick at " << at);
     }
   }
   CHECK(axes > 90'000);
+}
+
+TEST_CASE("axes at both ends of what doubles hold have finite ticks, and numbers as labels") {
+  constexpr double most = std::numeric_limits<double>::max(),
+                   least = std::numeric_limits<double>::denorm_min();
+  std::mt19937_64 bits(3);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 20'000; ++i) {
+    const bool large = i % 2 == 0, log = i % 3 == 0;
+    double a = large ? most * part(bits) : least * std::floor(1 + 1e6 * part(bits) * part(bits));
+    double b = i % 5 == 0           ? (large ? most : least)
+               : i % 7 == 0 && !log ? -a
+               : large              ? most * part(bits)
+                                    : a * (1 + part(bits));
+    if (a > b) std::swap(a, b);
+    if (!(a < b)) continue;
+    const Span span{a, b, log ? Scale::log : Scale::linear};
+    const auto ticks = ticks_for(span, 190, 9, true);
+    for (const auto& tick : ticks.major) {
+      const double at = span.fraction(tick.value);
+      const auto& text = tick.label;
+      if (!(at > -1e-6 && at < 1 + 1e-6) || text.find("nan") != text.npos || text.find("inf") != text.npos)
+        FAIL(a << " to " << b << ": " << text << " at " << at);
+    }
+    for (const double share : {0.0, 0.3, 1.0}) {
+      const double value = span.at(share);
+      // close to 0 doubles are a whole step apart
+      if (std::abs(span.fraction(value) - share) > (large ? 1e-9 : 0.51))
+        FAIL(a << " to " << b << " at " << share);
+    }
+  }
 }
 
 TEST_CASE("the data of an axis may be any doubles: its range holds them and can be mapped") {

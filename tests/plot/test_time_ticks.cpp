@@ -48,7 +48,85 @@ TEST_CASE("Axes of dates have ticks where calendars and clocks have them") {
   CHECK(labels(hours) == Texts{"06:00", "08:00", "10:00", "12:00", "14:00", "16:00", "18:00"});
   CHECK(hours.factor == "2026-03-07");
   CHECK(labels(ticks("2026-03-07T23:59:50", "2026-03-08T00:00:20")).front() == "03-07 23:59:50");
-  CHECK_THAT(ticks("2026-03-07T14:05:09", "2026-03-07T14:05:10").factor, Contains("+"));  // numbers
+}
+
+TEST_CASE("Axes shorter than seconds have fractions of them, and tell the minute once") {
+  using Texts = std::vector<std::string>;
+  const auto second = ticks("2026-03-07T14:05:09", "2026-03-07T14:05:10");
+  CHECK(labels(second) == Texts{":09.0", ":09.2", ":09.4", ":09.6", ":09.8", ":10.0"});
+  CHECK(second.factor == "2026-03-07 14:05");
+  CHECK(labels(ticks("2026-03-07T14:05:59.5", "2026-03-07T14:06:00.5")) ==
+        Texts{"14:05:59.6", "14:05:59.8", "14:06:00.0", "14:06:00.2", "14:06:00.4"});
+  const auto years = ticks("1969-12-31T23:59:59.999", "1970-01-01T00:00:00.001", 160);
+  CHECK(labels(years) == Texts{":59.9990", ":59.9995", ":00.0000", ":00.0005", ":00.0010"});
+  CHECK(years.factor == "from 1969-12-31 23:59");
+  CHECK(labels(ticks("2026-03-07T14:05:09.123400", "2026-03-07T14:05:09.123410", 300)) ==
+        Texts{":09.123400", ":09.123402", ":09.123404", ":09.123406", ":09.123408", ":09.123410"});
+  // doubles of our days are a quarter of a microsecond apart: less than that is told as what it is
+  const auto plain = ticks("2026-03-07T14:05:09.1234000", "2026-03-07T14:05:09.1234014");
+  CHECK_THAT(plain.factor, Contains("+1772892309") && Contains("s since 1970"));
+  // those close to 1970 tell more
+  CHECK(labels(ticks("1970-01-01T00:00:00", "1970-01-01T00:00:00.0000004")).front() == ":00.0000000");
+}
+
+TEST_CASE("Ticks of short axes of dates stand where their labels say, down to what doubles tell") {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> when(-6e10, 2.4e11), small(-1e5, 1e5),
+      size(std::log(1e-7), std::log(4.0));
+  int plain = 0, fine = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const double low = trial % 3 == 0 ? small(random) : when(random), high = low + std::exp(size(random));
+    if (!(high > low)) continue;
+    plot::Axis axis;
+    axis.times = true;
+    const double length = 100 + 40 * (trial % 9);
+    const auto t = plot::ticks_for(axis, {low, high, plot::Scale::linear}, length, 8, true);
+    CAPTURE(low, high, length, t.factor);
+    REQUIRE(t.major.size() >= 1);
+    REQUIRE(t.major.size() <= 9);
+    const double ulp = std::nextafter(std::max(std::abs(low), std::abs(high)), INFINITY) -
+                       std::max(std::abs(low), std::abs(high));
+    // a text is read as a day and the seconds in it, whose sum is rounded, too
+    const double rounding = std::max(2 * ulp, std::nextafter(86400.0, INFINITY) - 86400.0);
+    if (t.factor.find("s since 1970") != std::string::npos) {
+      ++plain;
+      // two of the power of ten that is next to four of them; or labels of so many digits find no room
+      REQUIRE((high - low < 80 * ulp || (high - low < 1e-5 && length < 200)));
+      continue;
+    }
+    ++fine;
+    for (const auto& tick : t.major) {
+      REQUIRE((tick.value >= low && tick.value <= high));
+      if (t.factor.starts_with("from ")) {
+        const auto minute = read::iso_time(t.factor.substr(5));
+        REQUIRE(minute);
+        const double at = *minute + std::stod(tick.label.substr(1)), off = std::abs(at - tick.value);
+        REQUIRE((off <= rounding || std::abs(off - 60) <= rounding));
+        continue;
+      }
+      const auto behind = tick.label.starts_with(':') ? "" : t.factor.size() == 4 ? "-" : "T";
+      const auto time = read::iso_time(t.factor.empty() ? tick.label : t.factor + behind + tick.label);
+      CAPTURE(tick.label);
+      REQUIRE(time);
+      REQUIRE(std::abs(*time - tick.value) <= rounding);
+    }
+    for (const double at : t.minor) REQUIRE((at >= low && at <= high));
+  }
+  CHECK(plain > 100);
+  CHECK(fine > 2000);
+}
+
+TEST_CASE("Dates within a second fill their axis") {
+  plot::Axis axis;
+  axis.times = true;
+  const double begin = *read::iso_time("2026-03-07T14:05:09");
+  for (const double length : {0.5, 1e-3, 1e-5}) {
+    plot::Extent extent;
+    extent.include(begin, plot::Scale::linear), extent.include(begin + length, plot::Scale::linear);
+    const auto span = plot::span_of(axis, extent);
+    CHECK(span.low <= begin);
+    CHECK(span.high - span.low < 1.2 * length);
+  }
 }
 
 TEST_CASE("Ticks of any two dates fit, are few, and stand where their labels say") {

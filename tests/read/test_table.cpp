@@ -54,6 +54,57 @@ TEST_CASE("Tables of other programs: a mark of byte order, gaps by name, signs, 
   CHECK_FALSE(read::parse_table("day\n2024-03-07\n", "t.csv").is_number("day"));
 }
 
+TEST_CASE("Cells in quotes may have line breaks, and rows are told by their first line") {
+  const auto table =
+      read::parse_table("a,b\r\n1,\"two\r\nlines, \"\"quoted\"\"\"\r\n2,\"\n\n\"\r\n3,x\r\n", "t.csv");
+  CHECK(table.text("a") == std::vector<std::string>{"1", "2", "3"});
+  CHECK(table.text("b") == std::vector<std::string>{"two\nlines, \"quoted\"", "\n\n", "x"});
+  CHECK(table.lines == std::vector<std::size_t>{2, 4, 7});
+  CHECK_THAT(complaint([] { read::parse_table("a,b\n1,\"x\n2,3\n", "t.csv"); }),
+             Contains("t.csv:2: a quoted cell"));
+  CHECK_THAT(complaint([] { read::parse_table("a,b\n1,\"x\" y\n2,3\n", "t.csv"); }),
+             Contains("t.csv:2: a quoted cell"));
+  std::string many = "a,b\n";  // quotes that never end, as often as lines: no more than a glance each
+  for (int i = 0; i < 200'000; ++i) many += "a\"b,\"x\n";
+  CHECK_THAT(complaint([&] { read::parse_table(many, "t.csv"); }), Contains("a quoted cell"));
+}
+
+TEST_CASE("Tables of blanks and tabs, as numpy writes them") {
+  const auto blanks = read::parse_table("# of last week\n# time force\n0.0   1.5\n  1e0\t-2 \n", "t.csv");
+  CHECK(blanks.header == std::vector<std::string>{"time", "force"});
+  CHECK(blanks.column("time") == std::vector<double>{0, 1});
+  CHECK(blanks.column("force") == std::vector<double>{1.5, -2});
+  const auto named = read::parse_table("time \"mean force\"\n0 1,5\n1 2\n", "t.csv");
+  CHECK(named.column("mean force") == std::vector<double>{1.5, 2});
+  const auto tabs = read::parse_table("time\tv x\tnote\n0\t\ta b\n1\t2,5\t\n", "t.csv");
+  CHECK(tabs.header == std::vector<std::string>{"time", "v x", "note"});
+  CHECK(std::isnan(tabs.column("v x")[0]));
+  CHECK(tabs.column("v x")[1] == 2.5);
+  CHECK(tabs.text("note") == std::vector<std::string>{"a b", ""});
+  // texts with blanks are no columns
+  CHECK(read::parse_table("first word\nsecond word\n", "t.csv").header.size() == 1);
+  CHECK(complaint([] { read::parse_table("a b\n1 2\n3\n", "t.csv"); }) ==
+        "t.csv:3: 1 cells, but the header names 2");
+}
+
+TEST_CASE("Ends of lines and letters of other systems, separators at the end, lines without names") {
+  const auto mac = read::parse_table("x,y\r1,2\r3,4\r", "t.csv");
+  CHECK(mac.column("y") == std::vector<double>{2, 4});
+  CHECK(mac.lines == std::vector<std::size_t>{2, 3});
+  CHECK(read::parse_table("x,\xB5\n1,2\n", "t.csv").header[1] == "\u00B5");  // Latin-1
+  CHECK(read::parse_table("x,\u00B5\n1,2\n", "t.csv").header[1] == "\u00B5");
+  for (const char* text : {"x,y,\n1,2,\n3,4\n", "x,y\n1,2,\n3,4,\n"})
+    CHECK(read::parse_table(text, "t.csv").column("y") == std::vector<double>{2, 4});
+  CHECK_THAT(complaint([] { read::parse_table("x,y,\n1,2,3\n", "t.csv"); }), Contains("t.csv:2: 3 cells"));
+  CHECK_THAT(complaint([] { read::parse_table("\xFF\xFEx", "t.csv"); }),
+             Contains("UTF-16: save it as UTF-8"));
+  CHECK_THAT(complaint([] { read::parse_table("0.5,1\n1.5,2\n", "t.csv"); }),
+             Contains("t.csv:1: the first line has numbers"));
+  CHECK(read::parse_table("0,1\n1.5,2\n", "t.csv").column("1") == std::vector<double>{2});  // pandas
+  CHECK(read::parse_table(",0,1\n0,1.5,2\n", "t.csv").column("1") ==
+        std::vector<double>{2});  // and with its index
+}
+
 TEST_CASE("Semicolons between cells, commas in numbers; commas stay what they are where they divide") {
   const auto table = read::parse_table("zeit;kraft\n0,5;1,25\n1;-2.5e0\n1,5;\n", "t.csv");
   CHECK(table.header == std::vector<std::string>{"zeit", "kraft"});
