@@ -109,7 +109,7 @@ Figure random_figure(Dice& dice) {
     if (titles) panel.title = "row, $\\epsilon=0$";
     panel.x = random_axis(dice), panel.y = random_axis(dice);
     if (dice.below(3) == 0)
-      panel.notes = {{"region $B$, $\\theta_{BC}$", dice.uniform(), dice.uniform(), true}};
+      panel.notes = {{"region $B$, $\\theta_{BC}$", dice.uniform(), dice.uniform(), true, {}, {}, {}}};
     if (dice.below(3) == 0) panel.references = {random_reference(dice, panel)};
     if (dice.below(4) == 0 && panels < 3 && panel.notes.empty() && panel.references.empty())
       panel.insets = {random_inset(dice)};
