@@ -238,6 +238,12 @@ bool is_vtk(const fs::path& file) {
   return begin.starts_with("# vtk DataFile") || read::xml_head(begin).is_vtk;
 }
 
+/// By its name: then what is wrong with it is told as of such a file.
+bool is_called_vtk(const fs::path& file) {
+  const auto extension = file.extension().string();
+  return extension.starts_with(".vt") || extension.starts_with(".pvt");
+}
+
 /// A folder of files that chute render takes one by one.
 bool holds_frames(const fs::path& folder) {
   const auto entries = fs::directory_iterator(folder);
@@ -262,7 +268,7 @@ Json describe_file(const fs::path& path) {
   if (extension == ".csv") return of_table(path);
   if (extension == ".pvd" || extension == ".series") return of_frames(path);
   if (const auto format = read::text_format_of(path)) return of_text_frames(path, *format);
-  if (is_vtk(path)) return of_vtk(path);
+  if (is_called_vtk(path) || is_vtk(path)) return of_vtk(path);
   if (extension == ".tsv" || extension == ".txt" || extension == ".dat") return of_table(path);
   throw InputError(
       path.string() +

@@ -211,6 +211,7 @@ TEST_CASE("overlapping grains, and a domain shorter than two contacts, are refus
   add_ball<2>(grains, {{0, 0}}, {}, 1, 1, false);
   CHECK_THROWS_WITH(EventEngine<2>(grains, free_space<2>({})),
                     Catch::Contains("grain 0 overlaps grain 1 by 0.1"));
+  grains.position[1][0] = 2.5;
   auto setup = free_space<2>({});
   setup.domain.length[0] = 3;
   CHECK_THROWS_AS(EventEngine<2>(grains, setup), WorkError);

@@ -131,7 +131,8 @@ TEST_CASE("grains that overlap at the start are refused") {
   Grains<2> grains;
   add_grain<2>(grains, {{0, 0.5}});
   add_grain<2>(grains, {{0.9, 0.5}});
-  CHECK_THROWS_WITH((MonteCarloEngine<2>(grains, above_floor<2>())), Catch::Contains("overlaps another"));
+  CHECK_THROWS_WITH((MonteCarloEngine<2>(grains, above_floor<2>())),
+                    Catch::Contains("grain 0 overlaps grain 1 by 0.2"));
 }
 
 // A move longer than a period was brought back by one period only, and the grain then lay where no other found it.
