@@ -125,7 +125,8 @@ bool is_frame(const fs::path& path) {
 /// Names the parts of one time, which are no frames then.
 bool is_index_of_parts(const fs::path& path) {
   const auto extension = unpacked_extension(path);
-  constexpr std::string_view known[] = {".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm", ".vtpd", ".vtpc"};
+  constexpr std::string_view known[] = {".pvtp", ".pvtu", ".pvti", ".pvts",
+                                        ".pvtr", ".vtm",  ".vtpd", ".vtpc"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
