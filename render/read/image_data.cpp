@@ -7,8 +7,14 @@
 #include "common/error.hpp"
 #include "common/toml_reader.hpp"
 #include "read/byte_stream.hpp"
+#include "read/xml_check.hpp"
 
 namespace chute::read {
+
+bool is_image_data(std::string_view bytes) {
+  const auto type = xml_head(bytes).type;
+  return type == "ImageData" || type == "PImageData";
+}
 
 ImageData read_image_data(const std::filesystem::path& path) {
   return parse_image_data(read_unpacked(path), path);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "read/grain_frame.hpp"
@@ -28,9 +29,16 @@ struct GridField {
   std::vector<double> values;  ///< x fastest
 };
 
-/// Reads a .vti file. InputError, one line that names the file, if it is missing, cut short or something else.
+/// Whether these bytes are image data: a grid (.vti), or an index of its pieces (.pvti).
+bool is_image_data(std::string_view bytes);
+
+/// Reads a .vti file, or the pieces that a .pvti file names as one grid. InputError, one line that names the file, if it is missing,
+/// cut short or something else; also if no piece has a part of the grid.
 ImageData read_image_data(const std::filesystem::path& path);
 ImageData parse_image_data(std::string bytes, const std::filesystem::path& path);
+
+/// What image_by_vtk does, in this process. Throws std::runtime_error with what VTK complains of, without the file's name.
+ImageData read_image_pieces(const std::filesystem::path& path);
 
 /// The field of that name; `NAME:x`, `:y`, `:z` is a component, of several components the magnitude else. InputError with the
 /// nearest name if there is none.

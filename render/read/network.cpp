@@ -15,7 +15,6 @@
 #include "common/toml_reader.hpp"
 #include "read/byte_stream.hpp"
 #include "read/number.hpp"
-#include "read/points_file.hpp"
 #include "read/table.hpp"
 #include "read/text_rows.hpp"
 #include "read/vtk_points.hpp"
@@ -47,15 +46,15 @@ const PointArray* find_in(const Columns& columns, std::string_view name) {
 class Contacts {
  public:
   Contacts(std::filesystem::path path, Columns columns, std::size_t rows, const Meanings& meanings)
-      : path_(std::move(path)), columns_(std::move(columns)), rows_(rows), meanings_(meanings) {}
+      : path_(std::move(path)), columns_(std::move(columns)), rows_(rows), meanings_(&meanings) {}
 
   std::size_t size() const { return rows_; }
 
   /// The strengths of all contacts.
   std::vector<double> forces() const {
     std::vector<const PointArray*> parts;
-    if (!meanings_.force.empty()) {
-      for (const auto& name : meanings_.force) parts.push_back(&named(name, "--force"));
+    if (!meanings_->force.empty()) {
+      for (const auto& name : meanings_->force) parts.push_back(&named(name, "--force"));
     } else if (const auto* usual = usual_force()) {
       parts = {usual};
     } else {
@@ -92,8 +91,13 @@ class Contacts {
   /// An option that names a column which is not there is a slip, also of a frame without contacts, whose columns are there.
   void check_names() const {
     if (columns_.empty()) return;
-    for (const auto& name : meanings_.force) named(name, "--force");
-    for (const auto& name : meanings_.ends) named(name, "--ends");
+    for (const auto& name : meanings_->force) named(name, "--force");
+    for (const auto& name : meanings_->ends) named(name, "--ends");
+  }
+
+  /// Leaves those columns that the other has, too.
+  void keep_columns_of(const Contacts& other) {
+    std::erase_if(columns_, [&](const PointArray& column) { return !find_in(other.columns_, column.name); });
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw InputError(path_.string() + ": " + what); }
@@ -102,7 +106,7 @@ class Contacts {
   std::filesystem::path path_;
   Columns columns_;
   std::size_t rows_;
-  const Meanings& meanings_;
+  const Meanings* meanings_;
 
   std::string there() const {
     std::vector<std::string> names;
@@ -120,11 +124,11 @@ class Contacts {
   }
   std::vector<const PointArray*> place_columns() const {
     std::vector<const PointArray*> found;
-    if (meanings_.ends.size() > 2) {
-      for (const auto& name : meanings_.ends) found.push_back(&named(name, "--ends"));
+    if (meanings_->ends.size() > 2) {
+      for (const auto& name : meanings_->ends) found.push_back(&named(name, "--ends"));
       return found;
     }
-    if (!meanings_.ends.empty()) return {};
+    if (!meanings_->ends.empty()) return {};
     for (const auto name : usual_places)
       if (const auto* column = find_in(columns_, name)) found.push_back(column);
     // all six, or in the plane the four without z
@@ -133,8 +137,8 @@ class Contacts {
                : std::vector<const PointArray*>{};
   }
   std::array<const PointArray*, 2> pair_columns() const {
-    if (meanings_.ends.size() == 2)
-      return {&named(meanings_.ends[0], "--ends"), &named(meanings_.ends[1], "--ends")};
+    if (meanings_->ends.size() == 2)
+      return {&named(meanings_->ends[0], "--ends"), &named(meanings_->ends[1], "--ends")};
     for (const auto& names : usual_pairs) {
       const auto *a = find_in(columns_, names[0]), *b = find_in(columns_, names[1]);
       if (a && b) return {a, b};
@@ -169,7 +173,39 @@ class Contacts {
   }
 };
 
-std::vector<ForceLink> links_of(const Contacts& contacts, const GrainFrame* grains) {
+/// A line between two grains' centres, VTK's usual contact, and the row that tells of it.
+struct Line {
+  Vector3d from, to;
+  std::size_t row;
+};
+
+/// A network, or what one file has of it.
+struct Part {
+  Contacts contacts;
+  enum class Kind { table, points, lines } kind = Kind::table;
+  std::vector<Line> lines = {};
+};
+
+std::vector<ForceLink> links_of_lines(const Part& part, const Meanings& meanings) {
+  const auto& contacts = part.contacts;
+  std::vector<ForceLink> links;
+  if (!meanings.ends.empty())
+    contacts.fail("--ends is of contacts that are rows of a table; these are lines, which have their ends");
+  contacts.check_names();
+  if (part.lines.empty()) return links;
+  const auto forces = contacts.forces();
+  for (const auto& line : part.lines) {
+    const ForceLink link{line.from, line.to, forces[line.row]};
+    if (!link.from.allFinite() || !link.to.allFinite() || !std::isfinite(link.force))
+      contacts.fail(fmt::format("contact {}: a value is not a finite number", links.size()));
+    links.push_back(link);
+  }
+  return links;
+}
+
+std::vector<ForceLink> links_of(const Part& part, const Meanings& meanings, const GrainFrame* grains) {
+  if (part.kind == Part::Kind::lines) return links_of_lines(part, meanings);
+  const auto& contacts = part.contacts;
   std::vector<ForceLink> links;
   contacts.check_names();
   if (contacts.size() == 0) return links;
@@ -180,29 +216,6 @@ std::vector<ForceLink> links_of(const Contacts& contacts, const GrainFrame* grai
       contacts.fail(fmt::format("contact {}: a value is not a finite number", i));
     if (ends[i].first.allFinite() && ends[i].second.allFinite())
       links.push_back({ends[i].first, ends[i].second, forces[i]});
-  }
-  return links;
-}
-
-/// Lines between the grains' centres: VTK's usual network.
-std::vector<ForceLink> links_of_lines(PointSet points, const std::filesystem::path& path,
-                                      const Meanings& meanings) {
-  std::vector<ForceLink> links;
-  std::vector<PointSet::Cell> lines;
-  for (auto& cell : points.cells)
-    if (cell.corners.size() == 2) lines.push_back(std::move(cell));
-  const Contacts contacts(path, std::move(points.cell_arrays), points.cells_in_all, meanings);
-  if (!meanings.ends.empty())
-    contacts.fail("--ends is of contacts that are rows of a table; these are lines, which have their ends");
-  contacts.check_names();
-  if (lines.empty()) return links;
-  const auto forces = contacts.forces();
-  for (const auto& cell : lines) {
-    const auto place = [&](std::size_t i) -> Vector3d { return {points.x[i], points.y[i], points.z[i]}; };
-    const ForceLink link{place(cell.corners[0]), place(cell.corners[1]), forces[cell.number]};
-    if (!link.from.allFinite() || !link.to.allFinite() || !std::isfinite(link.force))
-      contacts.fail(fmt::format("contact {}: a value is not a finite number", links.size()));
-    links.push_back(link);
   }
   return links;
 }
@@ -235,36 +248,79 @@ Contacts table_of(const FileBytes& file, const Meanings& meanings) {
   return {file.path, std::move(columns), table.rows.size(), meanings};
 }
 
-}  // namespace
-
-std::vector<ForceLink> parse_network(FileBytes file, const Meanings& meanings, const GrainFrame* grains) {
-  if (file.path.extension() == ".csv") return links_of(table_of(file, meanings), grains);
-  if (file.bytes.starts_with("ITEM:")) return links_of(entries_of(file, meanings), grains);
+/// The lines of a VTK file, or its points as rows where it has none. A line that a part only repeats for its neighbours' sake, or
+/// hides, is left out.
+Part part_of_vtk(FileBytes file, const Meanings& meanings) {
   const auto path = file.path;
   PointSet points = parse_vtk(std::move(file.bytes), path);
-  const bool has_lines = std::any_of(points.cells.begin(), points.cells.end(),
-                                     [](const auto& cell) { return cell.corners.size() == 2; });
-  if (has_lines || points.x.empty()) return links_of_lines(std::move(points), path, meanings);
+  const auto place = [&](std::size_t i) -> Vector3d { return {points.x[i], points.y[i], points.z[i]}; };
+  constexpr std::string_view ghosts = "vtkGhostType";  // of VTK's cells, bits
+  constexpr int repeated_or_hidden = 1 | 32;
+  const auto* flags = find_in(points.cell_arrays, ghosts);
+  if (flags && (flags->components != 1 || flags->values.size() != points.cells_in_all)) flags = nullptr;
+  bool has_lines = points.x.empty();
+  std::vector<Line> lines;
+  for (const auto& cell : points.cells) {
+    if (cell.corners.size() != 2) continue;
+    has_lines = true;
+    if (flags && (static_cast<int>(flags->at(cell.number)) & repeated_or_hidden) != 0) continue;
+    lines.push_back({place(cell.corners[0]), place(cell.corners[1]), cell.number});
+  }
+  if (has_lines)
+    return {{path, std::move(points.cell_arrays), points.cells_in_all, meanings},
+            Part::Kind::lines,
+            std::move(lines)};
   const std::size_t rows = points.x.size();
-  return links_of({path, std::move(points.point_arrays), rows, meanings}, grains);
+  return {{path, std::move(points.point_arrays), rows, meanings}, Part::Kind::points};
+}
+
+Part part_of(FileBytes file, const Meanings& meanings) {
+  if (file.path.extension() == ".csv") return {table_of(file, meanings)};
+  if (file.bytes.starts_with("ITEM:")) return {entries_of(file, meanings)};
+  return part_of_vtk(std::move(file), meanings);
+}
+
+/// Leaves the parts that tell of contacts, with those columns that all of them have: strengths are of one kind then. Points beside
+/// lines are grains without contacts, not rows. Where no part has any contact, the first stands for all.
+void make_alike(std::vector<Part>& parts) {
+  if (parts.size() < 2) return;
+  const bool have_lines =
+      std::any_of(parts.begin(), parts.end(), [](const Part& part) { return !part.lines.empty(); });
+  const auto is_empty = [&](const Part& part) {
+    return part.kind == Part::Kind::lines    ? part.lines.empty()
+           : part.kind == Part::Kind::points ? have_lines
+                                             : part.contacts.size() == 0;
+  };
+  if (std::all_of(parts.begin(), parts.end(), is_empty))
+    return void(parts.erase(parts.begin() + 1, parts.end()));
+  std::erase_if(parts, is_empty);
+  for (const auto& part : parts) parts.front().contacts.keep_columns_of(part.contacts);
+  for (auto& part : parts) part.contacts.keep_columns_of(parts.front().contacts);
+}
+
+}  // namespace
+
+std::vector<ForceLink> parse_network(std::vector<FileBytes> files, const Meanings& meanings,
+                                     const GrainFrame* grains) {
+  std::vector<Part> parts;
+  for (auto& file : files) parts.push_back(part_of(std::move(file), meanings));
+  make_alike(parts);
+  std::vector<ForceLink> links;
+  for (const auto& part : parts) {
+    const auto some = links_of(part, meanings, grains);
+    links.insert(links.end(), some.begin(), some.end());
+  }
+  return links;
 }
 
 std::vector<ForceLink> read_network(const std::filesystem::path& path) {
-  return parse_network({path, read_file(path)});
+  return parse_network({FileBytes{path, read_file(path)}});
 }
 
-FileBytes network_bytes(const FrameFile& frame) {
-  if (frame.contacts_piece)
-    return {frame.contacts,
-            read_piece(frame.contacts, frame.contacts_piece->from, frame.contacts_piece->size),
-            frame.contacts_piece->first_line,
-            {}};
-  auto parts = read_parts(frame.contacts);
-  if (parts.size() > 1)
-    throw InputError(
-        fmt::format("{}: contacts in {} parts, of which one would be drawn: put them into one file",
-                    frame.contacts.string(), parts.size()));
-  return std::move(parts.at(0));
+std::vector<FileBytes> network_bytes(const FrameFile& frame) {
+  FrameFile network{frame.contacts, frame.more_contacts};
+  network.piece = frame.contacts_piece, network.more_pieces = frame.more_contacts_pieces;
+  return read_files(network);
 }
 
 }  // namespace chute::read

@@ -125,7 +125,8 @@ bool is_frame(const fs::path& path) {
 /// Names the parts of one time, which are no frames then.
 bool is_index_of_parts(const fs::path& path) {
   const auto extension = unpacked_extension(path);
-  constexpr std::string_view known[] = {".pvtp", ".pvtu", ".pvts", ".pvtr", ".vtm", ".vtpd", ".vtpc"};
+  constexpr std::string_view known[] = {".pvtp", ".pvtu", ".pvti", ".pvts",
+                                        ".pvtr", ".vtm",  ".vtpd", ".vtpc"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
@@ -255,17 +256,14 @@ std::vector<FrameFile> find_frames(const fs::path& source) {
 void attach_networks(std::vector<FrameFile>& frames, const fs::path& source) {
   const auto networks = frames_of(source, true);
   if (networks.empty()) throw InputError(source.string() + ": no files of contacts");
-  const auto attach = [&](FrameFile& frame, const FrameFile& network) {
-    if (!network.more.empty())
-      throw InputError(
-          fmt::format("{}: contacts in {} parts, of which one would be drawn: put them into one file",
-                      source.string(), 1 + network.more.size()));
+  const auto attach = [](FrameFile& frame, const FrameFile& network) {
     frame.contacts = network.path, frame.contacts_piece = network.piece;
+    frame.more_contacts = network.more, frame.more_contacts_pieces = network.more_pieces;
   };
   const auto have_times = [](const std::vector<FrameFile>& files) {
     return std::all_of(files.begin(), files.end(), [](const auto& f) { return f.time.has_value(); });
   };
-  for (auto& frame : frames) frame.contacts.clear(), frame.contacts_piece.reset();
+  for (auto& frame : frames) attach(frame, {});
   if (have_times(frames) && have_times(networks)) {
     constexpr double same = 1e-9;  // relative: times as text lose digits
     std::size_t fit = 0;

@@ -20,6 +20,8 @@ struct FrameFile {
       {};  ///< of a file of text, which may hold several frames: where this one stands
   std::optional<TextPiece> contacts_piece = {};  ///< the same of the contact network
   std::vector<TextPiece> more_pieces = {};       ///< the same of `more`, where these are files of text
+  std::vector<std::filesystem::path> more_contacts = {};  ///< further parts of the contact network
+  std::vector<TextPiece> more_contacts_pieces = {};       ///< and of these
 };
 
 /// Reads ParaView's time index (.pvd): times and files, sorted by time. Paths are relative to the index. Parts of one time
@@ -34,7 +36,7 @@ std::vector<FrameFile> read_series_index(const std::filesystem::path& path);
 /// The frames of a run, in order. `source` is
 /// - a run directory (its frames.pvd), or a directory of VTK files (any engine's), in natural order of their
 /// names;
-/// - an index of times (.pvd, .series), or one VTK file, also an index of parts (.pvtp, .pvtu, .vtm);
+/// - an index of times (.pvd, .series), or one VTK file, also an index of parts (.pvtp, .pvtu, .pvti, .vtm …);
 /// - a pattern with `*` and `?` in its last part, such as `post/dump*.vtk`;
 /// and instead of VTK files dumps of LAMMPS or XYZ files, with one frame each or many, packed or not. Of these, frames with
 /// a time stand in its order, and a time that comes again replaces the earlier one.
@@ -44,8 +46,8 @@ std::vector<FrameFile> read_series_index(const std::filesystem::path& path);
 std::vector<FrameFile> find_frames(const std::filesystem::path& source);
 
 /// Gives frames the contact networks that `source` names: VTK files, tables (.csv) or dumps of entries, in any of the forms above.
-/// Where frames and networks tell their times before they are read, those of one time belong together; else there must be as
-/// many networks as frames, in their order. InputError if they do not fit.
+/// A network in parts is attached with all of them. Where frames and networks tell their times before they are read, those of
+/// one time belong together; else there must be as many networks as frames, in their order. InputError if they do not fit.
 void attach_networks(std::vector<FrameFile>& frames, const std::filesystem::path& source);
 
 /// The files of a frame, with all its parts.

@@ -4,6 +4,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
@@ -15,11 +16,13 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkXMLImageDataReader.h>
+#include <vtkXMLPImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <istream>
+#include <limits>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -179,6 +182,47 @@ bool is_vtk_type(std::string_view type) {
   return std::find(std::begin(known), std::end(known), type) != std::end(known);
 }
 
+/// The grid that VTK has read, with its fields.
+ImageData copied(vtkImageData* data) {
+  ImageData result;
+  int extent[6];
+  data->GetExtent(extent);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto count = static_cast<long long>(extent[2 * k + 1]) - extent[2 * k] + 1;
+    if (count > std::numeric_limits<int>::max()) throw std::runtime_error("its grid has too many points");
+    result.points[k] = static_cast<int>(count);
+    result.spacing[k] = data->GetSpacing()[k];
+    result.origin[k] = data->GetOrigin()[k] + extent[2 * k] * result.spacing[k];
+  }
+  result.cell_arrays = arrays_of(data->GetCellData());
+  result.point_arrays = arrays_of(data->GetPointData());
+  auto* facts = data->GetFieldData();
+  if (auto* time = vtkDataArray::SafeDownCast(facts->GetAbstractArray(fields::time_value.data()));
+      time && time->GetNumberOfValues() > 0)
+    result.time = time->GetTuple1(0);
+  const auto text = [&](std::string_view name) {
+    auto* found = vtkStringArray::SafeDownCast(facts->GetAbstractArray(name.data()));
+    return found && found->GetNumberOfValues() > 0 ? std::string(found->GetValue(0)) : std::string();
+  };
+  result.units = text(fields::units), result.clock = text(fields::clock);
+  return result;
+}
+
+/// Throws InputError if there are more or fewer values than places for them.
+void check_size(const ImageData& data, const std::filesystem::path& path) {
+  std::size_t points = 1, cells = 1;
+  for (const int n : data.points)
+    points *= static_cast<std::size_t>(n), cells *= static_cast<std::size_t>(std::max(1, n - 1));
+  const auto check = [&](const std::vector<PointArray>& arrays, std::size_t count) {
+    for (const auto& a : arrays)
+      if (a.values.size() != count * static_cast<std::size_t>(a.components))
+        throw InputError(fmt::format("{}: damaged or cut short: array \"{}\" does not fit the grid",
+                                     path.string(), a.name));
+  };
+  check(data.cell_arrays, cells);
+  check(data.point_arrays, points);
+}
+
 PointSet only(PointSet set, const Wanted& wanted) {
   std::erase_if(set.point_arrays, [&](const PointArray& array) { return !wanted(array.name); });
   return set;
@@ -199,7 +243,8 @@ PointSet parse_vtk(std::string bytes, const std::filesystem::path& path, const W
   if (bytes.empty()) fail("the file is empty");
   const auto [is_xml, type] = xml_head(bytes);
   const bool other = is_xml && type != "PolyData" && type != "UnstructuredGrid";
-  if (other && is_vtk_type(type) && has_vtk_process()) return only(read_by_vtk(path), wanted);
+  if (other && is_vtk_type(type) && has_vtk_process())
+    return only(read_by_vtk(path, named_files(bytes)), wanted);
   if (other) fail(fmt::format("a VTK file of type \"{}\", expected PolyData or UnstructuredGrid", type));
   if (!is_xml && !bytes.starts_with("# vtk DataFile")) fail("not a VTK file");
   if (is_xml) bytes.resize(without_tail(bytes).size());
@@ -260,12 +305,18 @@ PointSet parse_vtk(std::vector<FileBytes> parts, const Wanted& wanted) {
 ImageData parse_image_data(std::string bytes, const std::filesystem::path& path) {
   const auto fail = [&](const std::string& what) { throw InputError(path.string() + ": " + what); };
   if (bytes.empty()) fail("the file is empty");
-  if (const auto [is_xml, type] = xml_head(bytes); type != "ImageData")
+  const auto [is_xml, type] = xml_head(bytes);
+  ImageData result;
+  if (type == "PImageData" && has_vtk_process()) {
+    result = image_by_vtk(path, named_files(bytes));
+    check_size(result, path);
+    return result;
+  }
+  if (type != "ImageData")
     fail(is_xml ? fmt::format("a VTK file of type \"{}\", expected ImageData", type)
                 : "not a VTK file of image data (.vti)");
   bytes.resize(without_tail(bytes).size());
   if (const auto fault = xml_fault(bytes); !fault.empty()) fail("damaged or cut short: " + fault);
-  ImageData result;
   try {
     const Listening listening;
     vtkNew<InPlace<vtkXMLImageDataReader>> reader;
@@ -274,40 +325,30 @@ ImageData parse_image_data(std::string bytes, const std::filesystem::path& path)
     auto* data = vtkImageData::SafeDownCast(reader->GetOutputAsDataSet());
     if (!Listening::complaint().empty()) throw std::runtime_error(Listening::complaint());
     if (reader->GetErrorCode() != 0 || !data) throw std::runtime_error("VTK cannot read it");
-    int extent[6];
-    data->GetExtent(extent);
-    for (std::size_t k = 0; k < 3; ++k) {
-      result.points[k] = extent[2 * k + 1] - extent[2 * k] + 1;
-      result.spacing[k] = data->GetSpacing()[k];
-      result.origin[k] = data->GetOrigin()[k] + extent[2 * k] * result.spacing[k];
-    }
-    result.cell_arrays = arrays_of(data->GetCellData());
-    result.point_arrays = arrays_of(data->GetPointData());
-    auto* facts = data->GetFieldData();
-    if (auto* time = vtkDataArray::SafeDownCast(facts->GetAbstractArray(fields::time_value.data()));
-        time && time->GetNumberOfValues() > 0)
-      result.time = time->GetTuple1(0);
-    if (auto* units = vtkStringArray::SafeDownCast(facts->GetAbstractArray(fields::units.data()));
-        units && units->GetNumberOfValues() > 0)
-      result.units = units->GetValue(0);
-    if (auto* clock = vtkStringArray::SafeDownCast(facts->GetAbstractArray(fields::clock.data()));
-        clock && clock->GetNumberOfValues() > 0)
-      result.clock = clock->GetValue(0);
+    result = copied(data);
   } catch (const std::bad_alloc&) {
     fail("damaged: it asks for more memory than there is");
   } catch (const std::runtime_error& error) {
     fail(fmt::format("damaged or cut short: {}", error.what()));
   }
-  std::size_t points = 1, cells = 1;
-  for (const int n : result.points)
-    points *= static_cast<std::size_t>(n), cells *= static_cast<std::size_t>(std::max(1, n - 1));
-  const auto check = [&](const std::vector<PointArray>& arrays, std::size_t count) {
-    for (const auto& a : arrays)
-      if (a.values.size() != count * static_cast<std::size_t>(a.components))
-        fail(fmt::format("damaged or cut short: array \"{}\" does not fit the grid", a.name));
-  };
-  check(result.cell_arrays, cells);
-  check(result.point_arrays, points);
+  check_size(result, path);
+  return result;
+}
+
+ImageData read_image_pieces(const std::filesystem::path& path) {
+  const Listening listening;
+  vtkNew<vtkXMLPImageDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (!Listening::complaint().empty()) throw std::runtime_error(Listening::complaint());
+  auto* data = vtkImageData::SafeDownCast(reader->GetOutputAsDataSet());
+  if (reader->GetErrorCode() != 0 || !data) throw std::runtime_error("VTK cannot read it");
+  auto result = copied(data);
+  // Which cells a piece repeats for its neighbours' sake is no field of the whole.
+  for (auto* arrays : {&result.cell_arrays, &result.point_arrays})
+    std::erase_if(*arrays, [](const PointArray& array) {
+      return array.name == vtkDataSetAttributes::GhostArrayName();
+    });
   return result;
 }
 

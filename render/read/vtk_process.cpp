@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fstream>
 #include <mutex>
+#include <set>
 #include <string_view>
 
 #include "common/address_space.hpp"
@@ -167,6 +168,31 @@ PointSet take_set(Reader& in) {
   return set;
 }
 
+void put(Writer& out, const ImageData& grid) {
+  out.values({grid.origin.begin(), grid.origin.end()}),
+      out.values({grid.spacing.begin(), grid.spacing.end()});
+  for (const int count : grid.points) out.number(static_cast<std::uint64_t>(count));
+  out.values(grid.time ? std::vector<double>{*grid.time} : std::vector<double>());
+  out.text(grid.units), out.text(grid.clock);
+  put(out, grid.cell_arrays), put(out, grid.point_arrays);
+}
+
+ImageData take_grid(Reader& in) {
+  ImageData grid;
+  for (auto* place : {&grid.origin, &grid.spacing}) {
+    const auto values = in.values();
+    std::copy_n(values.begin(), std::min(values.size(), place->size()), place->begin());
+  }
+  for (int& count : grid.points) count = static_cast<int>(in.number());
+  if (const auto time = in.values(); !time.empty()) grid.time = time[0];
+  grid.units = in.text(), grid.clock = in.text();
+  grid.cell_arrays = take_arrays(in), grid.point_arrays = take_arrays(in);
+  return grid;
+}
+
+/// What a file is read as.
+enum class As : std::uint64_t { points, grid };
+
 // --- the process that reads ---
 
 std::uint64_t memory_now() {
@@ -179,19 +205,18 @@ std::uint64_t memory_now() {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const auto at_first = memory_now();
-  std::uint64_t size = 0;
-  while (read_all(requests, &size, sizeof size)) {
-    std::uint64_t length = 0;
-    if (!read_all(requests, &length, sizeof length)) break;
+  As as{};
+  while (read_all(requests, &as, sizeof as)) {
+    std::uint64_t size = 0, length = 0;
+    if (!read_all(requests, &size, sizeof size) || !read_all(requests, &length, sizeof length)) break;
     std::string path(length, '\0');
     if (!read_all(requests, path.data(), length)) break;
     limit_address_space(at_first + memory_at_least + memory_per_byte * size);
     Writer out(replies);
     std::string fault;
     try {
-      const auto set = read_any_vtk(path);
-      out.number(1);
-      put(out, set);
+      const auto answer = [&](const auto& found) { out.number(1), put(out, found); };
+      as == As::grid ? answer(read_image_pieces(path)) : answer(read_any_vtk(path));
     } catch (const std::bad_alloc&) {
       fault = "damaged: it asks for more memory than a file of its size should";
     } catch (const std::exception& error) {
@@ -209,7 +234,9 @@ class Process {
  public:
   ~Process() { stop(); }
 
-  PointSet ask(const fs::path& path, std::uint64_t size) {
+  /// `take` takes what it answers.
+  template <class Found>
+  Found ask(As as, const fs::path& path, std::uint64_t size, Found (*take)(Reader&)) {
     if (owner_ != ::getpid()) forget();
     if (process_ < 0) start();
     const NoBrokenPipe guard;
@@ -217,10 +244,10 @@ class Process {
     const auto end = Reader::Clock::now() + std::chrono::milliseconds(static_cast<long long>(1000 * seconds));
     try {
       Writer out(requests_);
-      out.number(size), out.text(path.string());
+      out.number(static_cast<std::uint64_t>(as)), out.number(size), out.text(path.string());
       if (!out.good()) throw Broken{};
       Reader in(replies_, end);
-      if (in.number() == 1) return take_set(in);
+      if (in.number() == 1) return take(in);
       throw InputError(fmt::format("{}: {}", path.string(), in.text()));
     } catch (const Broken& broken) {
       const auto how = broken.late ? fmt::format("VTK has not read it within {:.0f} s", seconds)
@@ -286,6 +313,22 @@ class Process {
   }
 };
 
+std::mutex one_at_a_time;
+Process process;
+
+template <class Found>
+Found ask(As as, const fs::path& path, const std::vector<std::string>& named, Found (*take)(Reader&)) {
+  std::error_code error;
+  std::uint64_t size = fs::file_size(path, error);
+  if (error) throw InputError(fmt::format("{}: cannot read: {}", path.string(), error.message()));
+  std::set<fs::path> files;  // one that is named often is not larger for that
+  for (const auto& name : named) files.insert(fs::weakly_canonical(path.parent_path() / name, error));
+  for (const auto& file : files)
+    if (const auto more = fs::file_size(file, error); !error) size += more;
+  const std::lock_guard lock(one_at_a_time);
+  return process.ask(as, path, size, take);
+}
+
 }  // namespace
 
 bool serve_vtk_files(int argc, char** argv) {
@@ -296,14 +339,12 @@ bool serve_vtk_files(int argc, char** argv) {
 
 bool has_vtk_process() { return can_be_started; }
 
-PointSet read_by_vtk(const fs::path& path) {
-  static std::mutex mutex;
-  static Process process;
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  if (error) throw InputError(fmt::format("{}: cannot read: {}", path.string(), error.message()));
-  const std::lock_guard lock(mutex);
-  return process.ask(path, size);
+PointSet read_by_vtk(const fs::path& path, const std::vector<std::string>& named) {
+  return ask(As::points, path, named, take_set);
+}
+
+ImageData image_by_vtk(const fs::path& path, const std::vector<std::string>& named) {
+  return ask(As::grid, path, named, take_grid);
 }
 
 }  // namespace chute::read

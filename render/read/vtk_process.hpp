@@ -1,6 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "read/image_data.hpp"
 #include "read/point_set.hpp"
 
 /// VTK's own readers, in a process of their own: they trust counts in files, and a damaged one may end them. The process is started
@@ -16,6 +19,10 @@ bool has_vtk_process();
 /// The points, with their arrays, of any file that VTK 9.1 reads as data sets: structured and rectilinear grids, several blocks as
 /// one set … Points that a part only repeats for its neighbours' sake are left out. InputError that names the file for what VTK
 /// complains of, and for a file that takes too long, wants more memory than a file of its size should, or ends the reading process.
-PointSet read_by_vtk(const std::filesystem::path& path);
+/// `named` are the files that it is an index of, relative to it: their sizes count, too.
+PointSet read_by_vtk(const std::filesystem::path& path, const std::vector<std::string>& named = {});
+
+/// The grid whose pieces a .pvti file names. InputError as above, also if they do not cover it.
+ImageData image_by_vtk(const std::filesystem::path& path, const std::vector<std::string>& named);
 
 }  // namespace chute::read

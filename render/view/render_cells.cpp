@@ -143,7 +143,10 @@ void keep_shape(plot::Figure& figure, const Look& look) {
 
 bool are_cells(const std::vector<read::FrameFile>& frames) {
   return std::any_of(frames.begin(), frames.end(), [](const auto& f) {
-    return f.path.extension() == ".vti" || f.path.stem().extension() == ".vti";  // packed
+    const auto extension = f.path.extension();
+    const bool packed = extension == ".gz" || extension == ".zst";
+    const auto kind = packed ? f.path.stem().extension() : extension;
+    return kind == ".vti" || kind == ".pvti";
   });
 }
 
@@ -151,6 +154,10 @@ RenderReport render_cells(const RenderJob& job, const std::vector<read::FrameFil
                           const std::vector<std::size_t>& numbers) {
   constexpr double dpi = 200;
   const auto& style = job.style;
+  for (const auto& frame : frames)
+    if (!frame.more.empty())
+      throw InputError(fmt::format("{}: a grid in {} parts of one time; a .pvti file names parts of a grid",
+                                   frame.path.string(), 1 + frame.more.size()));
   const auto load = [&](std::size_t i, const std::string& field) {
     const auto data = read::read_image_data(frames[i].path);
     auto slab = flattened(read::field_of(data, field, frames[i].path));

@@ -6,7 +6,7 @@
 
 namespace chute::view {
 
-/// Do these frames hold fields on grids (.vti) instead of grains?
+/// Do these frames hold fields on grids (.vti, .pvti) instead of grains?
 bool are_cells(const std::vector<read::FrameFile>& frames);
 
 /// Draws fields of cells as maps with axes and a colour bar, one colour range and one extent for all frames. `style.color` names

@@ -179,7 +179,7 @@ class FrameDrawer {
     for (std::size_t i = oldest; i < number; ++i) load(i);
     auto files = read::read_files(file);
     const bool has_network = job_.style.chains && !file.contacts.empty();
-    read::FileBytes network;
+    std::vector<read::FileBytes> network;
     if (has_network) network = read::network_bytes(file);
 
     const fs::path picture = job_.output.empty() ? fs::path() : picture_path(job_, number);
@@ -187,7 +187,8 @@ class FrameDrawer {
     add_part(hash, common_);
     add_part(hash, fmt::format("{} {}", survey_.times[number], job_.dpi));
     for (const auto& part : files) add_part(hash, part.bytes), add_part(hash, part.named);
-    add_part(hash, network.bytes);
+    add_part(hash, fmt::format("contacts in {} parts", network.size()));
+    for (const auto& part : network) add_part(hash, part.bytes), add_part(hash, part.named);
     for (std::size_t i = oldest; i < number; ++i) add_part(hash, earlier_[i - first_earlier_].hash);
     const std::size_t impacts = beside_.until(survey_.times[number]);
     add_part(hash, fmt::format("impacts {}", impacts));

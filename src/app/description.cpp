@@ -106,7 +106,7 @@ void add_grid(Json& into, const read::ImageData& grid) {
 
 /// What files that make one set of points, or a grid, hold; when that is, if they say.
 std::optional<double> add_files(Json& into, std::vector<read::FileBytes> files) {
-  if (files.size() == 1 && read::xml_head(files[0].bytes).type == "ImageData") {
+  if (files.size() == 1 && read::is_image_data(files[0].bytes)) {
     const auto grid = read::parse_image_data(std::move(files[0].bytes), files[0].path);
     add_grid(into, grid);
     return grid.time;

@@ -267,7 +267,7 @@ void add_render(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
   verb->add_option(
           "run", a->run,
-          "run directory; or VTK files of grains or of cells (.vti), dumps of LAMMPS or XYZ files (also .gz, .zst), chute's or "
+          "run directory; or VTK files of grains or of cells (.vti, .pvti), dumps of LAMMPS or XYZ files (also .gz, .zst), chute's or "
           "another engine's: a directory, a time index (.pvd), one file, or a pattern in quotes")
       ->required();
   verb->add_option("-o,--output", a->output,

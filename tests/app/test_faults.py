@@ -107,8 +107,8 @@ class Faults(unittest.TestCase):
             self.assertFalse((self.folder / "out").exists())
 
     def test_a_run_beyond_the_machine(self):
-        """Ten thousand frames of ten million grains: 7 TB."""
-        large = self.scene(grains__count="10000000", run__duration="1000", output__frames="{every=0.1}")
+        """Fifty thousand frames of two million grains: 7 TB."""
+        large = self.scene(grains__count="2000000", run__duration="5000", output__frames="{every=0.1}")
         said = self.refused("run", *large, "-o", "out")
         self.assertRegex(said, r"s.toml: \S+: the run takes about \S+ GB of (disk|memory); .* --beyond-machine")
         self.assertFalse((self.folder / "out").exists())

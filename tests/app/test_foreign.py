@@ -226,13 +226,17 @@ class Dumps(Foreign):
             self.write("other.vtk", vtk({"radius": sizes, **parts}))
             self.assertTrue(self.picture("other.vtk") == usual, names)
 
-    def test_contacts_in_parts_are_not_drawn_in_part(self):
+    def test_contacts_of_processes_are_put_together(self):
         part = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ENTRIES a b force\n%d %d 1\n"
         self.write("grains", dump_frame(0, "x y z"))
         for k in range(2):
             self.write("local.%d" % k, part % (2 * k + 1, 2 * k + 2))
-        for source in ("local.%", "local.*"):
-            self.assertIn("local.", self.call("render", "grains", "-o", "p", "--size", "96x96", "--chains", "--contacts", source, status=2).stderr)
+        whole = part.replace("ENTRIES\n1\n", "ENTRIES\n2\n", 1) + "%d %d 1\n"
+        self.write("all", whole % (1, 2, 3, 4))
+        pictures = [self.picture("grains", "--opacity", "0.3", "--contacts", source) for source in ("all", "local.%", "local.0")]
+        self.assertTrue(pictures[0] == pictures[1])
+        self.assertFalse(pictures[0] == pictures[2])
+        self.assertIn("give 'local.%'", self.call("render", "grains", "-o", "p", "--contacts", "local.*", status=2).stderr)
 
     def test_packed_frames_of_a_folder_and_of_a_pattern(self):
         os.mkdir(self.path("post"))

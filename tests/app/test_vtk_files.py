@@ -2,6 +2,7 @@
 combination of format that the writers know, with arrays of every type beside them: each must be drawn, and all pictures are the
 same. Exit status 77 without VTK's Python package."""
 import itertools
+import json
 import os
 import random
 import shutil
@@ -14,6 +15,7 @@ chute = os.path.abspath(sys.argv[1])
 wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 160
 try:
     import vtk
+    from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 except ImportError as missing:
     print("skipped:", missing)
     sys.exit(77)
@@ -149,6 +151,73 @@ def write_legacy(path, some, kind, binary, version, double):
         raise RuntimeError("VTK does not write " + path)
 
 
+class Pieces(VTKPythonAlgorithmBase):
+    """What a parallel writer asks for piece by piece: parts as they are, or of a whole grid what lies in an extent."""
+    def __init__(self, kind, parts, whole=None):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType=kind)
+        self.parts, self.whole = parts, whole
+
+    def RequestInformation(self, request, inputs, outputs):
+        info, pipeline = outputs.GetInformationObject(0), vtk.vtkStreamingDemandDrivenPipeline
+        if self.whole:
+            info.Set(pipeline.WHOLE_EXTENT(), self.whole.GetExtent(), 6)
+            info.Set(vtk.vtkDataObject.ORIGIN(), self.whole.GetOrigin(), 3)
+            info.Set(vtk.vtkDataObject.SPACING(), self.whole.GetSpacing(), 3)
+            info.Set(vtk.vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
+        else:
+            info.Set(vtk.vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        info, pipeline = outputs.GetInformationObject(0), vtk.vtkStreamingDemandDrivenPipeline
+        made = vtk.vtkDataObject.GetData(outputs)
+        if self.whole:
+            made.ShallowCopy(self.whole)
+            made.Crop([info.Get(pipeline.UPDATE_EXTENT(), k) for k in range(6)])
+        else:
+            made.ShallowCopy(self.parts[info.Get(pipeline.UPDATE_PIECE_NUMBER())])
+        return 1
+
+
+def write_pieces(path, name, source, count, ghosts=0):
+    writer = getattr(vtk, "vtkXMLP%sWriter" % name)()
+    writer.SetFileName(path)
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetNumberOfPieces(count), writer.SetStartPiece(0), writer.SetEndPiece(count - 1), writer.SetGhostLevel(ghosts)
+    if not writer.Write():
+        raise RuntimeError("VTK does not write " + path)
+
+
+def write_one(path, name, data):
+    writer = getattr(vtk, "vtkXML%sWriter" % name)()
+    writer.SetFileName(path)
+    writer.SetInputData(data)
+    if not writer.Write():
+        raise RuntimeError("VTK does not write " + path)
+
+
+def grid(factor=1):
+    """Fields of cells and of points, which tell each place from all others."""
+    made = vtk.vtkImageData()
+    made.SetDimensions(9, 6, 1), made.SetOrigin(1, 2, 0), made.SetSpacing(0.5, 0.25, 1)
+    made.GetCellData().AddArray(array("Double", "eta", [factor * i ** 1.5 for i in range(8 * 5)]))
+    made.GetCellData().AddArray(array("Float", "flow", [i % 17 for i in range(3 * 8 * 5)], 3))
+    made.GetPointData().AddArray(array("Double", "height", [50 - i for i in range(9 * 6)]))
+    made.GetFieldData().AddArray(array("Double", "TimeValue", [1.5]))
+    return made
+
+
+def network(pairs, forces):
+    """Contacts of the grains in PLACES, as lines."""
+    made, lines = vtk.vtkPolyData(), vtk.vtkCellArray()
+    made.SetPoints(points(True))
+    for pair in pairs:
+        lines.InsertNextCell(2, pair)
+    made.SetLines(lines)
+    made.GetCellData().AddArray(array("Double", "force", forces))
+    return made
+
+
 class Written(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp()
@@ -195,6 +264,87 @@ class Written(unittest.TestCase):
                 count += 1
             shutil.rmtree(self.folder), os.mkdir(self.folder)
         print("%d files" % count)
+
+    def call(self, *words, status=0):
+        done = subprocess.run([chute, *words], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def pixels(self, source, *options):
+        self.call("render", source, "-o", "p", "--size", "640x480", *options)
+        with open(os.path.join(self.folder, "p", "000000.png"), "rb") as file:
+            pixels = file.read().split(b"IDAT", 1)[1]
+        shutil.rmtree(os.path.join(self.folder, "p"))
+        return pixels
+
+    def told(self, source):
+        found = json.loads(self.call("info", source, "--json").stdout)
+        del found["file"]
+        return found
+
+    def test_a_grid_in_pieces_is_the_whole_grid(self):
+        """With seams that pieces share, and with cells that they repeat; what changes in a piece is drawn anew."""
+        write_one(os.path.join(self.folder, "whole.vti"), "ImageData", grid())
+        told = self.told("whole.vti")
+        self.assertEqual((told["points"], told["cells"], told["grid"], told["x"], told["y"]), (54, 40, [9, 6, 1], [1, 5], [2, 3.25]))
+        fields = ("eta", "height", "flow:y")
+        pictures = [self.pixels("whole.vti", "--color", field) for field in fields]
+        self.assertEqual(len(set(pictures)), 3)
+        for ghosts in (0, 1):
+            os.mkdir(os.path.join(self.folder, "g%d" % ghosts))
+            index = "g%d/f.pvti" % ghosts
+            write_pieces(os.path.join(self.folder, index), "ImageData", Pieces("vtkImageData", None, grid()), 4, ghosts)
+            with open(os.path.join(self.folder, index)) as file:
+                self.assertEqual(len(set(line.split("Source")[0] for line in file if "<Piece" in line)), 4)
+            self.assertEqual(self.told(index), told)
+            for source in (index, os.path.dirname(index)):  # in a folder the pieces are no frames
+                self.assertEqual([self.pixels(source, "--color", field) for field in fields], pictures)
+        write_pieces(os.path.join(self.folder, index), "ImageData", Pieces("vtkImageData", None, grid(-1)), 4)
+        self.assertNotEqual(self.pixels(index, "--color", "eta"), pictures[0])
+        os.remove(os.path.join(self.folder, "g1", "f_2.vti"))
+        for words in (("info", index), ("render", index, "-o", "p")):
+            said = self.call(*words, status=2).stderr
+            self.assertEqual((said.count("\n"), said[:17]), (1, "chute: g1/f.pvti:"), said)
+
+    def test_contacts_in_parts_are_one_network(self):
+        pairs = [(i, i + 1) for i in range(len(PLACES) - 1) if i % SIDES[0] < SIDES[0] - 1]
+        forces = [1.0 + i % 5 for i in range(len(pairs))]
+        cuts = (0, 7, 7, 12, len(pairs))  # one part has none
+        parts = [network(pairs[a:b], forces[a:b]) for a, b in zip(cuts, cuts[1:])]
+        path = lambda name: os.path.join(self.folder, name)
+        write_one(path("grains.vtp"), "PolyData", poly_data(random.Random(1), True, extra=False))
+        write_one(path("whole.vtp"), "PolyData", network(pairs, forces))
+        write_pieces(path("pieces.pvtp"), "PolyData", Pieces("vtkPolyData", parts), len(parts))
+        blocks = vtk.vtkMultiBlockDataSet()
+        for k, part in enumerate(parts):
+            blocks.SetBlock(k, part)
+            write_one(path("part%d.vtp" % k), "PolyData", part)
+        blocks.SetBlock(len(parts), poly_data(random.Random(1), True, extra=False))  # grains beside the contacts
+        write_one(path("blocks.vtm"), "MultiBlockData", blocks)
+        with open(path("parts.pvd"), "w") as file:
+            file.write('<VTKFile type="Collection"><Collection>%s</Collection></VTKFile>' %
+                       "".join('<DataSet timestep="0" part="%d" file="part%d.vtp"/>' % (k, k) for k in range(len(parts))))
+        for name, some in [("whole", range(len(pairs)))] + [("local.%d" % k, range(a, b)) for k, (a, b) in enumerate(zip(cuts, cuts[1:]))]:
+            with open(path(name), "w") as file:
+                file.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n%d\nITEM: ENTRIES x1 y1 z1 x2 y2 z2 force\n" % len(some))
+                for i in some:
+                    file.write("%g %g %g %g %g %g %g\n" % (*PLACES[pairs[i][0]], *PLACES[pairs[i][1]], forces[i]))
+        drawn = lambda contacts: self.pixels("grains.vtp", "--opacity", "0.3", "--contacts", contacts)
+        whole = drawn("whole.vtp")
+        self.assertNotEqual(drawn("part0.vtp"), whole)
+        for contacts in ("pieces.pvtp", "blocks.vtm", "parts.pvd", "whole", "local.%"):
+            self.assertTrue(drawn(contacts) == whole, contacts)
+        self.assertIn("give 'local.%'", self.call("render", "grains.vtp", "-o", "p", "--contacts", "local.*", status=2).stderr)
+        again = lambda: self.call("render", "grains.vtp", "-o", "p", "--size", "96x96", "--contacts", "pieces.pvtp").stderr
+        again()
+        self.assertNotIn("1 frame drawn", again())
+        write_one(path("pieces_3.vtp"), "PolyData", network(pairs[12:], [9.0] * len(pairs[12:])))
+        self.assertIn("1 frame drawn", again())
+        strange = network(pairs[12:], forces[12:])
+        strange.GetCellData().GetArray(0).SetName("strength")
+        write_one(path("pieces_3.vtp"), "PolyData", strange)
+        self.assertIn("no array \"normal_force\" or \"force\"",
+                      self.call("render", "grains.vtp", "-o", "p", "--contacts", "pieces.pvtp", status=2).stderr)
 
     def test_a_damaged_file_ends_nothing(self):
         """What ends VTK's own readers, or makes them ask for all memory, is a line and exit status 2."""

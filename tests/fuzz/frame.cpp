@@ -9,5 +9,5 @@ void chute::fuzz::frame(std::string_view bytes) {
     read::parse_frame({{"frame.vtp", std::string(bytes)}}, 0.5);
   } catch (const InputError&) {
   }
-  read::parse_network({"contacts.vtp", std::string(bytes)});
+  read::parse_network({read::FileBytes{"contacts.vtp", std::string(bytes)}});
 }

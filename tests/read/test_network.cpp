@@ -79,6 +79,39 @@ TEST_CASE("a network is the same as lines, as rows with ids, and as rows with pl
   check(network_of(folder / "points.vtp", {}, &grains));
 }
 
+TEST_CASE("parts of a network are one, and lines that a part repeats count once") {
+  Folder folder;
+  const auto grains = grains_of(folder);
+  vtk_files::Content first, second, none;
+  first.points = none.points = {1, 1, 1, 2, 1, 1, 1.5, 2, 1};
+  first.lines = {0, 1, 1, 2};
+  // only what both parts have is a strength: not the array that is the more usual one
+  first.cells = {{"normal_force", {70, 80}}, {"force", {3, 5}}};
+  second.points = {2, 1, 1, 1.5, 2, 1, 1, 1, 1};
+  second.lines = {0, 1, 1, 2};
+  second.cells = {{"force", {5, 13}}, {"vtkGhostType", {1, 0}}};
+  vtk_files::write(first, folder / "a.vtp");
+  vtk_files::write(none, folder / "b.vtp");
+  vtk_files::write(second, folder / "c.vtu", vtk_files::Kind::unstructured);
+  put(folder / "all.vtm",
+      "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet><DataSet index=\"0\" file=\"a.vtp\"/>"
+      "<DataSet index=\"1\" file=\"b.vtp\"/><DataSet index=\"2\" file=\"c.vtu\"/></vtkMultiBlockDataSet></VTKFile>");
+  check(network_of(folder / "all.vtm"));
+  read::Meanings own;
+  own.force = {"normal_force"};
+  CHECK_THAT(complaint([&] { network_of(folder / "all.vtm", own); }), Contains("--force: no array"));
+  const auto entries = [&](int part, const std::string& columns, const std::vector<std::string>& rows) {
+    std::string text = "ITEM: TIMESTEP\n10\nITEM: NUMBER OF ENTRIES\n" + std::to_string(rows.size()) +
+                       "\nITEM: ENTRIES " + columns + "\n";
+    for (const auto& row : rows) text += row + "\n";
+    put(folder / ("local." + std::to_string(part)), text);
+  };
+  entries(0, "id1 id2 fn", {"7 3 3", "3 5 5"});
+  entries(1, "id1 id2 fn", {});
+  entries(2, "fn id2 id1", {"13 7 5"});
+  check(network_of(folder / "local.%", {}, &grains));
+}
+
 TEST_CASE("what a file of contacts lacks is told, with what is there") {
   Folder folder;
   const auto grains = grains_of(folder);
