@@ -167,8 +167,8 @@ class WorkingDay(unittest.TestCase):
         self.assertIn("did you mean incline.gravity?", lines[-1])
 
 
-class Compare(unittest.TestCase):
-    """Budgets and tolerances do what they say."""
+class InAFolder(unittest.TestCase):
+    """Small files, in a folder of their own."""
 
     def setUp(self):
         self.folder = tempfile.mkdtemp()
@@ -178,6 +178,10 @@ class Compare(unittest.TestCase):
         with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
             file.write(text)
         return os.path.join(self.folder, name)
+
+
+class Compare(InAFolder):
+    """Budgets and tolerances do what they say."""
 
     def compare(self, *words):
         return subprocess.run([chute, "compare", *words], capture_output=True, text=True)
@@ -220,16 +224,8 @@ class Compare(unittest.TestCase):
         self.assertIn("is drawn by rsvg-convert, which is not here: install librsvg2-bin", said.stderr)
 
 
-class Recipes(unittest.TestCase):
+class Recipes(InAFolder):
     """What a recipe leaves unsaid, or says in vain, is told."""
-
-    def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def write(self, name, text):
-        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
-            file.write(text)
 
     def figure(self, text, *words):
         self.write("r.toml", text)
