@@ -6,8 +6,8 @@ namespace chute::laws {
 struct NormalForce {
   double total;      ///< F_n
   double loss_rate;  ///< dissipated energy per time
-  double at_once =
-      0;  ///< the part of F_n that is there at once when a contact begins, and until it ends: γ_n dξ/dt
+  /// The part of F_n that is there at once when a contact begins, and until it ends: γ_n dξ/dt.
+  double at_once = 0;
 };
 
 /// The same for a law that remembers how the contact was loaded: what it dissipates it knows exactly, step by

@@ -89,8 +89,8 @@ void push_apart(Grains<D>& grains, const Surroundings<D>& around, double touchin
   const double skin =
       0.05 * *std::min_element(grains.radius.begin(),
                                grains.radius.begin() + static_cast<std::ptrdiff_t>(grains.moving));
-  constexpr int often =
-      20;  // sweeps from one list of neighbours to the next; what comes near meanwhile is found then
+  // Sweeps from one list of neighbours to the next; what comes near meanwhile is found then.
+  constexpr int often = 20;
   Pusher<D> pusher(grains, around, touching);
   search::PairNames pairs;
   for (int sweep = 0; sweep < most_sweeps;) {

@@ -221,8 +221,8 @@ template <class Choice, int T>
 struct ShearKernel {
   Choice choice;
   std::array<const double*, T> slip;
-  const double *normal_force, *m_eff,
-      *weight;  // of EndWeights: friction's viscous branch is there at once too
+  const double *normal_force, *m_eff;
+  const double* weight;  // of EndWeights: friction's viscous branch is there at once too
   Part range;
   std::array<double*, T> force;
   double* loss;
