@@ -362,7 +362,7 @@ namespace {
 /// Dates and limits are of the calendar; the room beside them ends with it.
 void keep_in_calendar(const Axis& axis, const Extent& data, Span& span) {
   const auto [first, last] = calendar();
-  const auto is_in = [&](double v) { return v >= first && v <= last; };
+  const auto is_in = [first = first, last = last](double v) { return v >= first && v <= last; };
   const auto wrong = [&](const std::string& what) {
     throw InputError(
         fmt::format("axis \"{}\": {}: axes of dates go from the year 1 to the year 9999", axis.label, what));

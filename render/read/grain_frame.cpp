@@ -166,7 +166,9 @@ const PointArray* find_said(GrainFrame& frame, const std::string& name) {
 }
 
 void take_meanings(GrainFrame& frame, const Meanings& meanings) {
-  for (const auto& [what, name, components] : meanings.said()) {
+  for (const auto& [key, text, components] : meanings.said()) {
+    const auto& what = key;  // C++20's lambdas take no structured bindings in clang 14
+    const auto& name = text;
     const auto fail = [&](const std::string& why) {
       const auto hint = nearest(*name, frame.names);
       throw InputError(

@@ -21,7 +21,7 @@ const PointArray* find_scalar(const std::vector<PointArray>& arrays, std::string
 
 /// A point of the file, finite.
 Eigen::Vector3d point(const PointSet& points, std::size_t i, const std::filesystem::path& path) {
-  const Eigen::Vector3d p{points.x[i], points.y[i], points.z[i]};
+  Eigen::Vector3d p{points.x[i], points.y[i], points.z[i]};
   if (!p.allFinite())
     throw InputError(fmt::format("{}: point {}: a coordinate is not a finite number", path.string(), i));
   return p;

@@ -37,10 +37,8 @@ std::vector<Property> properties_in(const TextLines& lines, std::string_view tex
   std::vector<Property> properties;
   for (std::size_t i = 0; i < words.size(); i += 3) {
     Property p{std::string(words[i]), 1, RowColumn::Kind::numbers};
-    if (words[i + 1] == "S")
+    if (words[i + 1] == "S" || words[i + 1] == "L")  // L is T or F
       p.kind = RowColumn::Kind::words;
-    else if (words[i + 1] == "L")
-      p.kind = RowColumn::Kind::words;  // T and F
     else if (words[i + 1] != "R" && words[i + 1] != "I")
       lines.fail(
           fmt::format("Properties: {} is of type \"{}\", expected R, I, S or L", p.name, words[i + 1]));

@@ -1,15 +1,13 @@
 #include "report/film.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <sstream>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/programs.hpp"
+#include "common/scratch_folder.hpp"
 #include "read/run_frames.hpp"
 #include "view/render_cells.hpp"
 #include "view/render_run.hpp"
@@ -24,33 +22,7 @@ constexpr int still_width = 400;
 /// Without a movie every picture stands in the page by itself.
 constexpr std::size_t most_pictures = 24;
 
-/// A folder for what is drawn on the way, gone when it is done with.
-class Workshop {
- public:
-  Workshop() {
-    auto form = (fs::temp_directory_path() / "chute-report-XXXXXX").string();
-    if (!::mkdtemp(form.data())) throw WorkError(form + ": cannot be made");
-    path_ = form;
-  }
-  ~Workshop() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-bool has_ffmpeg() {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((fs::path(folder) / "ffmpeg").c_str(), X_OK) == 0) return true;
-  return false;
-}
+bool has_ffmpeg() { return !find_program("ffmpeg").empty(); }
 
 /// The index of what can be filmed: grains, else fields by cell.
 std::optional<fs::path> source_of(const RunFiles& run) {
@@ -154,7 +126,7 @@ class Filmer {
   const Common& common_;
   bool movies_;
   double parts_, done_ = 0;
-  Workshop workshop_;
+  ScratchFolder workshop_{"report"};
 
   view::RenderJob job(const Shot& shot, std::size_t step, double begin, double share) const {
     view::RenderJob job;

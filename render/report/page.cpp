@@ -24,7 +24,7 @@ constexpr std::size_t largest_table =
     4u << 20;  // bytes; larger ones are named in place of being put into the page
 
 /// Units as running text.
-std::string unit(const RunFiles& run, const char* si, const char* reduced) {
+std::string unit_markup(const RunFiles& run, const char* si, const char* reduced) {
   return fmt::format(" <small>{}</small>", run.units == "SI" ? si : reduced);
 }
 std::string clock_unit(const RunFiles& run) {
@@ -48,15 +48,15 @@ std::string seconds_text(double seconds) {
 }
 
 /// What is told of a run in a line each: a tile of one run, a row of several.
-struct Line {
+struct OutcomeLine {
   std::string name;
   std::vector<std::string> values;  ///< HTML, one a run
 };
 
-std::vector<Line> outcome(const std::vector<RunFiles>& runs) {
-  std::vector<Line> lines;
+std::vector<OutcomeLine> outcome(const std::vector<RunFiles>& runs) {
+  std::vector<OutcomeLine> lines;
   const auto add = [&](const std::string& name, const auto& value_of) {
-    Line line{name, {}};
+    OutcomeLine line{name, {}};
     for (const auto& run : runs) line.values.push_back(value_of(run));
     if (std::any_of(line.values.begin(), line.values.end(), [](const auto& v) { return !v.empty(); }))
       lines.push_back(std::move(line));
@@ -67,13 +67,15 @@ std::vector<Line> outcome(const std::vector<RunFiles>& runs) {
   const auto flows = [](const RunFiles& run) {
     return run.record.flow.has_value() && run.record.clock == "time";
   };
-  add("Mean velocity downhill",
-      [&](const RunFiles& r) { return flows(r) ? mean(r.record.flow->v_x, unit(r, "m/s", "√(gd)")) : ""; });
-  add("Mean spin", [&](const RunFiles& r) {
-    return flows(r) ? mean(r.record.flow->omega, unit(r, "rad/s", "√(g/d)")) : "";
+  add("Mean velocity downhill", [&](const RunFiles& r) {
+    return flows(r) ? mean(r.record.flow->v_x, unit_markup(r, "m/s", "√(gd)")) : "";
   });
-  add("Kinetic energy",
-      [&](const RunFiles& r) { return flows(r) ? mean(r.record.flow->kinetic, unit(r, "J", "mgd")) : ""; });
+  add("Mean spin", [&](const RunFiles& r) {
+    return flows(r) ? mean(r.record.flow->omega, unit_markup(r, "rad/s", "√(g/d)")) : "";
+  });
+  add("Kinetic energy", [&](const RunFiles& r) {
+    return flows(r) ? mean(r.record.flow->kinetic, unit_markup(r, "J", "mgd")) : "";
+  });
   add("Averages from", [&](const RunFiles& r) {
     return flows(r) ? number_text(r.record.flow->from) + fmt::format(" <small>{}</small>", clock_unit(r))
                     : "";
@@ -103,7 +105,7 @@ std::string verdict_line(const RunFiles& run) {
                      escape(meaning_of(verdict)));
 }
 
-std::string table_of(const std::vector<RunFiles>& runs, const std::vector<Line>& lines,
+std::string table_of(const std::vector<RunFiles>& runs, const std::vector<OutcomeLine>& lines,
                      const std::string& head) {
   std::string html = "<div class=\"card scroll\"><table>\n<thead><tr><th></th>";
   for (std::size_t k = 0; k < runs.size(); ++k)
@@ -135,9 +137,9 @@ std::string summary(const std::vector<RunFiles>& runs) {
 std::string words_section(const std::vector<RunFiles>& runs) {
   std::string html;
   if (runs.size() > 1) {
-    std::vector<Line> lines;
+    std::vector<OutcomeLine> lines;
     for (const auto& difference : differences(runs)) {
-      Line line{fmt::format("<code class=\"key\">{}</code>", escape(difference.key)), {}};
+      OutcomeLine line{fmt::format("<code class=\"key\">{}</code>", escape(difference.key)), {}};
       for (const auto& value : difference.values)
         line.values.push_back(value.empty() ? "" : fmt::format("<code>{}</code>", escape(value)));
       lines.push_back(std::move(line));

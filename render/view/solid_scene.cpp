@@ -199,7 +199,7 @@ class Drawing {
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (names[k] == Tile::nothing) continue;
       const double sx = (static_cast<double>(k % samples) + 0.5) / samples,
-                   sy = (static_cast<double>(k / samples) + 0.5) / samples;
+                   sy = (std::floor(static_cast<double>(k) / samples) + 0.5) / samples;
       keep(shading.at(names[k], x + sx, y + sy), one * through[k]);
     }
   }

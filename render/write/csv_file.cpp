@@ -10,7 +10,7 @@ namespace {
 
 using Kind = FrameField::Kind;
 
-std::string columns_of(const FrameField& field) {
+std::string columns_text(const FrameField& field) {
   const auto name = without(field.name, ",\"#");
   if (field.components() == 1) return "," + name;
   constexpr std::array<const char*, 4> quaternion{"w", "x", "y", "z"}, vector{"x", "y", "z", ""};
@@ -44,7 +44,7 @@ std::string table(const read::GrainFrame& frame, const FrameFacts& facts, bool h
   if (head) {
     text = comments_of(frame, facts, !timed);
     text += timed ? "frame,time,x,y,z,radius" : "x,y,z,radius";
-    for (const auto& field : all) text += columns_of(field);
+    for (const auto& field : all) text += columns_text(field);
     text += "\n";
   }
   const auto begin =

@@ -6,11 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <vector>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/scratch_folder.hpp"
 #include "image/png.hpp"
 
 namespace chute::app {
@@ -38,22 +38,6 @@ int run_program(const std::vector<std::string>& words) {
   return WEXITSTATUS(status);
 }
 
-/// A folder that is gone at the end.
-struct Scratch {
-  fs::path path;
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "chute-compare-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw WorkError(name + ": cannot be made");
-    path = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-};
-
 image::Image drawn(const fs::path& file, std::vector<std::string> words, const char* package,
                    const fs::path& picture) {
   read_file(file);  // says what is wrong with it in chute's own words
@@ -75,15 +59,15 @@ bool is_picture(const fs::path& file) {
 
 image::Image read_picture(const fs::path& file) {
   if (file.extension() == ".pdf") {
-    const Scratch scratch;
+    const ScratchFolder scratch("compare");
     return drawn(file,
                  {"pdftoppm", "-png", "-r", resolution, "-singlefile", fs::absolute(file).string(),
-                  (scratch.path / "page").string()},
-                 "poppler-utils", scratch.path / "page.png");
+                  (scratch.path() / "page").string()},
+                 "poppler-utils", scratch.path() / "page.png");
   }
   if (file.extension() == ".svg") {
-    const Scratch scratch;
-    const auto picture = scratch.path / "drawing.png";
+    const ScratchFolder scratch("compare");
+    const auto picture = scratch.path() / "drawing.png";
     return drawn(file,
                  {"rsvg-convert", "--dpi-x", resolution, "--dpi-y", resolution, "--background-color", "white",
                   "-o", picture.string(), fs::absolute(file).string()},

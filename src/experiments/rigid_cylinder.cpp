@@ -11,7 +11,7 @@
 namespace chute::experiments {
 namespace {
 
-constexpr double inertia = 0.5, gravity = 1;
+constexpr double disc_inertia = 0.5, gravity = 1;
 constexpr contact::Goal closely{.tolerance = 1e-13, .iterations = 10'000};
 
 enum At : std::uint32_t { plane, block };
@@ -29,10 +29,10 @@ contact::Problem<2> step_problem(const RigidCylinder& set_up, const Motion& m, d
   contact::Problem<2> problem;
   problem.row_starts = {0, 2, 4};
   problem.columns = {plane, block, plane, block};
-  problem.blocks = {{{1, 0, 0, 1 + 1 / inertia}},
-                    {{0, 1, 1, -1 / inertia}},
-                    {{0, 0, 1, -1 / inertia}},
-                    {{1, 0, 0, 1 + 1 / inertia}}};
+  problem.blocks = {{{1, 0, 0, 1 + 1 / disc_inertia}},
+                    {{0, 1, 1, -1 / disc_inertia}},
+                    {{0, 0, 1, -1 / disc_inertia}},
+                    {{1, 0, 0, 1 + 1 / disc_inertia}}};
   const double fallen = m.up - gravity * h;
   problem.q = {{{fallen, m.along - m.spin}}, {{-pushing * h, fallen + m.spin}}};
   problem.friction = {set_up.plane_friction, set_up.block_friction};
@@ -67,7 +67,7 @@ std::vector<CylinderState> push(const RigidCylinder& set_up, const std::vector<P
     for (long long k = 1; k <= steps; ++k) {
       const double time = start + static_cast<double>(k) * h;
       const auto r = solved(step_problem(set_up, m, pushing), set_up.exact, time);
-      const double gained = r[block][0] + r[plane][1], turned = (r[block][1] - r[plane][1]) / inertia;
+      const double gained = r[block][0] + r[plane][1], turned = (r[block][1] - r[plane][1]) / disc_inertia;
       m.along += gained, m.spin += turned;
       m.up += r[plane][0] + r[block][1] - gravity * h;
       states.push_back({time, -r[plane][1] / h, -r[block][1] / h, gained / h, turned / h, m.along, m.spin});

@@ -1,5 +1,6 @@
 """Files of other programs as a user meets them: test_foreign.py CHUTE. Dumps and XYZ files, arrays that are said, species, up, and
 movies of every kind."""
+import collections
 import gzip
 import json
 import math
@@ -212,7 +213,7 @@ class Dumps(Foreign):
     def colours(self, values, *range_):
         self.write("c.vtk", vtk({"radius": [0.4] * 4, "v": values}))
         seen = self.picture("c.vtk", "--color", "v", "--bare", *(["--range", *range_] if range_ else []))[0]
-        return {seen[k:k + 3] for k in range(0, len(seen), 3) if seen.count(seen[k:k + 3]) > 300}
+        return {colour for colour, many in collections.Counter(seen[k:k + 3] for k in range(0, len(seen), 3)).items() if many > 300}
 
     def test_usual_names_of_sizes_and_of_components(self):
         sizes, speeds = [0.3, 0.4] * 2, [1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0]
@@ -306,9 +307,7 @@ class Said(Foreign):
 
 class Species(Foreign):
     def colours(self, pixels):
-        count = {}
-        for i in range(0, len(pixels), 3):
-            count[pixels[i:i + 3]] = count.get(pixels[i:i + 3], 0) + 1
+        count = collections.Counter(pixels[i:i + 3] for i in range(0, len(pixels), 3))
         return {c: n for c, n in count.items() if max(c) - min(c) > 40}
 
     def test_each_has_one_colour_in_all_frames_and_stands_in_the_legend(self):

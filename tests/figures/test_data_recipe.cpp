@@ -3,6 +3,7 @@
 #include "common/error.hpp"
 #include "figures/data_recipe.hpp"
 
+namespace data_recipe_tests {
 using namespace chute;
 
 namespace {
@@ -41,3 +42,5 @@ TEST_CASE("a peak needs what it is drawn against; other extracts know no such ke
                     Catch::Contains("bandwidth"));
   CHECK_THROWS_AS(read("column = \"gamma\"\nvary = \"incline.sin\"\nvalues = [0.1]"), InputError);
 }
+
+}  // namespace data_recipe_tests

@@ -5,6 +5,7 @@
 #include "figures/extract.hpp"
 #include "figures/extract_flow.hpp"
 
+namespace extract_flow_tests {
 using namespace chute::figures;
 namespace fs = std::filesystem;
 
@@ -143,3 +144,5 @@ TEST_CASE("an instant of several runs is one, whatever their steps make of its l
   CHECK(rows[2].y == Approx(1.5));
   CHECK(rows[3].y == 6);
 }
+
+}  // namespace extract_flow_tests

@@ -5,6 +5,7 @@
 #include "figures/extract_hard.hpp"
 #include "figures/fits.hpp"
 
+namespace fits_tests {
 using namespace chute;
 using namespace chute::figures;
 
@@ -77,3 +78,5 @@ TEST_CASE("Janssen's law comes back from stresses that follow it, saturated or h
     CHECK(fit.largest == 30);
   }
 }
+
+}  // namespace fits_tests

@@ -3,6 +3,7 @@
 #include "core/random.hpp"
 #include "figures/peaks.hpp"
 
+namespace peaks_tests {
 using chute::Purpose;
 using chute::Random;
 using chute::figures::find_peaks;
@@ -72,3 +73,5 @@ TEST_CASE("what is not a number is in no peak") {
   CHECK(peaks[0].position == Approx(1));
   CHECK(chute::figures::find_peaks(std::vector<double>{NAN, NAN}, 0.01).empty());
 }
+
+}  // namespace peaks_tests

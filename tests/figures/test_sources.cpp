@@ -9,6 +9,7 @@
 #include "figures/formula.hpp"
 #include "figures/table_source.hpp"
 
+namespace sources_tests {
 using namespace chute;
 using namespace chute::figures;
 using chute::test::Folder;
@@ -140,3 +141,5 @@ TEST_CASE("a table's column over two others is a map: a series for each y, whose
   columns.where[0].is = "runaway";
   CHECK_THROWS_WITH(rows_of_table(columns, file), Catch::Contains("passes what `where` asks"));
 }
+
+}  // namespace sources_tests

@@ -2,6 +2,7 @@
 
 #include "measure/account.hpp"
 
+namespace account_tests {
 using namespace chute;
 
 namespace {
@@ -40,3 +41,5 @@ TEST_CASE("a gas without gravity is judged by what it lost, or had; what has no 
   CHECK(verdict->part == Approx(1.0 / 100));
   CHECK_FALSE(measure::judge_account(EnergyAccount{}));
 }
+
+}  // namespace account_tests

@@ -5,6 +5,7 @@
 #include "measure/diffusion.hpp"
 #include "measure/standstill.hpp"
 
+namespace diffusion_tests {
 using namespace chute;
 using namespace chute::measure;
 
@@ -68,3 +69,5 @@ TEST_CASE("thinned samples are evenly taken from all that came") {
   const double step = kept.kept()[1] - kept.kept()[0];
   for (std::size_t k = 1; k < kept.kept().size(); ++k) CHECK(kept.kept()[k] - kept.kept()[k - 1] == step);
 }
+
+}  // namespace diffusion_tests

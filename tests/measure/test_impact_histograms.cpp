@@ -5,6 +5,7 @@
 #include "core/random.hpp"
 #include "measure/impact_histograms.hpp"
 
+namespace impact_histograms_tests {
 using namespace chute;
 
 namespace {
@@ -93,3 +94,5 @@ TEST_CASE("an impact that is not a number belongs to no bin") {
   CHECK(gamma[0].value.mean == Approx(4 / pi));
   for (std::size_t b = 1; b < 4; ++b) CHECK(gamma[b].value.mean == 0);
 }
+
+}  // namespace impact_histograms_tests

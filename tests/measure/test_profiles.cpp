@@ -4,6 +4,7 @@
 #include "measure/fields.hpp"
 #include "measure/profiles.hpp"
 
+namespace profiles_tests {
 using namespace chute;
 
 namespace {
@@ -180,3 +181,5 @@ TEST_CASE("in space layers hold volumes: a sphere over two layers, and its three
   CHECK(bins[1].v[2].mean == 0.5);
   CHECK(bins[1].omega.mean == 7);
 }
+
+}  // namespace profiles_tests

@@ -2,6 +2,7 @@
 
 #include "measure/schedule.hpp"
 
+namespace schedule_tests {
 using namespace chute::measure;
 
 TEST_CASE("due steps are the nearest to each time, none twice, none left out") {
@@ -30,3 +31,5 @@ TEST_CASE("the start is due when the schedule begins there") {
   CHECK(Schedule(0, 1, 0.1).after(0) == 10);
   CHECK(Schedule(0.5, 1, 0.1).index_at(0) == -1);
 }
+
+}  // namespace schedule_tests

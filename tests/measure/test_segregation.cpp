@@ -4,6 +4,7 @@
 
 #include "measure/segregation.hpp"
 
+namespace segregation_tests {
 using namespace chute;
 
 namespace {
@@ -45,3 +46,5 @@ TEST_CASE(
   CHECK(turns[0] == Approx(-0.5));
   CHECK(std::isnan(indices(column({0, 0}, {0.5, 0.5}), 1)[0]));  // there are no others
 }
+
+}  // namespace segregation_tests

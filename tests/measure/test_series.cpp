@@ -2,6 +2,7 @@
 
 #include "measure/series.hpp"
 
+namespace series_tests {
 using namespace chute;
 
 namespace {
@@ -65,3 +66,5 @@ TEST_CASE("in 3D z is up and spins about y roll downhill") {
   CHECK(row.v == std::array{4.0, 9.0, 0.5});
   CHECK(row.omega == 4);
 }
+
+}  // namespace series_tests

@@ -8,6 +8,7 @@
 #include "measure/ball_outputs.hpp"
 #include "measure/outputs.hpp"
 
+namespace single_grains_tests {
 using namespace chute;
 using namespace chute::measure;
 
@@ -128,3 +129,5 @@ TEST_CASE("a grain starts at the angle at which it leaves the place where it res
   CHECK(row_of(text, 2)[1] == 1);
   CHECK(row_of(text, 2)[2] == 0);
 }
+
+}  // namespace single_grains_tests

@@ -5,6 +5,7 @@
 #include "core/random.hpp"
 #include "measure/steadiness.hpp"
 
+namespace steadiness_tests {
 using namespace chute;
 using measure::Verdict;
 
@@ -287,3 +288,5 @@ TEST_CASE("rows that come more often from some time on do not change what became
     CHECK(mixed.judged().v_x.mean == Approx(even.judged().v_x.mean).epsilon(0.02));
   }
 }
+
+}  // namespace steadiness_tests

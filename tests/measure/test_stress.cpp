@@ -5,6 +5,7 @@
 #include "measure/profiles.hpp"
 #include "pile.hpp"
 
+namespace stress_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -151,3 +152,5 @@ TEST_CASE("the stress falls with height by the density, point by point") {
     CHECK(slope == Approx(-smoothed).margin(0.01));
   }
 }
+
+}  // namespace stress_tests

@@ -5,6 +5,7 @@
 
 #include "measure/tilting.hpp"
 
+namespace tilting_tests {
 using namespace chute;
 using namespace chute::measure;
 
@@ -62,3 +63,5 @@ TEST_CASE("what does not last until the end of the run tells nothing") {
   CHECK(*both.start == Approx(20).epsilon(1e-12));
   CHECK(*both.stop == Approx(40).epsilon(1e-12));
 }
+
+}  // namespace tilting_tests

@@ -12,6 +12,7 @@
 #include "plot/draw.hpp"
 #include "plot/layout.hpp"
 
+namespace back_ends_tests {
 using namespace chute;
 using namespace chute::plot;
 namespace fs = std::filesystem;
@@ -187,3 +188,5 @@ TEST_CASE("a folder that does not exist is a failure of the work") {
   REQUIRE_THROWS_AS(draw_pdf(list, "/nonexistent-folder/a.pdf"), WorkError);
   REQUIRE_THROWS_AS(draw_svg(list, "/nonexistent-folder/a.svg"), WorkError);
 }
+
+}  // namespace back_ends_tests

@@ -11,6 +11,7 @@
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
 
+namespace cells_tests {
 using namespace chute;
 using namespace chute::plot;
 
@@ -279,3 +280,5 @@ TEST_CASE("bands end where the value is that of their line") {
   for (const auto& p : lowest.path.points)
     CHECK((p.x() > 100 / 3.0 - 1e-9 || p.y() < 100 - 100 / 3.0 + 1e-9));
 }
+
+}  // namespace cells_tests

@@ -13,6 +13,7 @@
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
 
+namespace contours_tests {
 using namespace chute;
 using namespace chute::plot;
 
@@ -180,3 +181,5 @@ TEST_CASE("levels of a recipe ascend, and are given one way") {
   CHECK_THROWS_WITH(read("levels = [1, 1]"), Catch::Contains("levels: must ascend"));
   CHECK_THROWS_WITH(read("levels = [1], contours = 2"), Catch::Contains("give contours or levels, not both"));
 }
+
+}  // namespace contours_tests

@@ -9,6 +9,7 @@
 #include "plot/mathtext.hpp"
 #include "plot/referee.hpp"
 
+namespace layout_tests {
 using namespace chute::plot;
 
 namespace {
@@ -344,3 +345,5 @@ TEST_CASE("wild data are drawn without leaving the frame's neighbourhood") {
       }
     }
 }
+
+}  // namespace layout_tests

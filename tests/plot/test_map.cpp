@@ -7,6 +7,7 @@
 #include "plot/map.hpp"
 #include "plot/recipe.hpp"
 
+namespace map_tests {
 using namespace chute;
 using namespace chute::plot;
 
@@ -129,3 +130,5 @@ TEST_CASE("a recipe makes a map of rows that are named by their place") {
       }
   }
 }
+
+}  // namespace map_tests

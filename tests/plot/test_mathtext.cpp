@@ -6,6 +6,7 @@
 #include "plot/mathtext.hpp"
 #include "plot/symbols.hpp"
 
+namespace mathtext_tests {
 using namespace chute::plot;
 
 namespace {
@@ -207,3 +208,5 @@ TEST_CASE("a family's scope ends with its block") {
   }
   CHECK(set_text("x", 10).runs.at(0).face == before);
 }
+
+}  // namespace mathtext_tests

@@ -6,6 +6,7 @@
 #include "plot/draw.hpp"
 #include "plot/outline.hpp"
 
+namespace raster_tests {
 using namespace chute::plot;
 using chute::image::Image;
 
@@ -174,3 +175,5 @@ TEST_CASE("pictures that no one can hold are refused") {
   REQUIRE_THROWS_AS(rasterise(page(1e6, 10), 300), chute::InputError);
   REQUIRE_THROWS_AS(rasterise(page(0, 10), 300), chute::InputError);
 }
+
+}  // namespace raster_tests

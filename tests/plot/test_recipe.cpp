@@ -5,6 +5,7 @@
 #include "plot/marks.hpp"
 #include "plot/recipe.hpp"
 
+namespace recipe_tests {
 using namespace chute;
 using namespace chute::plot;
 
@@ -202,3 +203,5 @@ TEST_CASE("a note at the frame's edge moves in; one that is larger than the pane
   REQUIRE((text != boxes.end() && frame->rect.contains(text->rect)));
   REQUIRE(message(note(std::string(90, 'm'))).find("larger than its panel") != std::string::npos);
 }
+
+}  // namespace recipe_tests

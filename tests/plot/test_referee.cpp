@@ -13,6 +13,7 @@
 #include "plot/referee.hpp"
 #include "plot/style.hpp"
 
+namespace referee_tests {
 using namespace chute::plot;
 
 namespace {
@@ -454,3 +455,5 @@ TEST_CASE("what the table's comments tell stands above the panels") {
   REQUIRE(parameters_of(comments, "b") == "$e_n=0.7$");
   REQUIRE((is_told_hollow(comments, "b", "mu=0.5") && !is_told_hollow(comments, "a", "mu=0.5")));
 }
+
+}  // namespace referee_tests

@@ -7,6 +7,7 @@
 #include "plot/recipe.hpp"
 #include "plot/referee.hpp"
 
+namespace right_axis_tests {
 using namespace chute;
 using namespace chute::plot;
 
@@ -142,3 +143,5 @@ TEST_CASE("what cannot be above is told") {
   CHECK_THROWS_WITH(figure_of("[[plot.series]]\nmatch = \"energy\"\nx_axis = \"right\"\n"),
                     Catch::Contains("fig.toml:6: plot.series[0].x_axis"));
 }
+
+}  // namespace right_axis_tests

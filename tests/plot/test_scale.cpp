@@ -6,6 +6,7 @@
 
 #include "plot/scale.hpp"
 
+namespace scale_tests {
 using namespace chute::plot;
 
 namespace {
@@ -189,3 +190,5 @@ TEST_CASE("what differs in late digits only stands for its distance from a round
   REQUIRE(ticks.factor == "$+1700000000$");
   REQUIRE(ticks.major.front().label == "$0$");
 }
+
+}  // namespace scale_tests

@@ -8,6 +8,7 @@
 #include "plot/mathtext.hpp"
 #include "plot/svg.hpp"
 
+namespace svg_tests {
 using namespace chute::plot;
 
 namespace {
@@ -94,3 +95,5 @@ TEST_CASE("SVG keeps shapes, dashes, clips; long scatter plots become one pictur
   svg = svg_text(list, {});
   REQUIRE((found(svg, "(<use )").empty() && found(svg, "(<image )").size() == 1));
 }
+
+}  // namespace svg_tests

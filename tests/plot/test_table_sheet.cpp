@@ -3,6 +3,7 @@
 #include "common/error.hpp"
 #include "plot/table_sheet.hpp"
 
+namespace table_sheet_tests {
 using namespace chute;
 using namespace chute::plot;
 using Catch::Matchers::Contains;
@@ -77,3 +78,5 @@ TEST_CASE("a table's texts stand on the page and beside each other, decimal poin
   REQUIRE(right_ends.size() == 2);
   REQUIRE(right_ends[0] == Approx(right_ends[1]).margin(1e-9));
 }
+
+}  // namespace table_sheet_tests

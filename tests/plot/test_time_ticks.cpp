@@ -12,6 +12,7 @@
 #include "plot/time_ticks.hpp"
 #include "read/iso_time.hpp"
 
+namespace time_ticks_tests {
 using namespace chute;
 using Catch::Matchers::Contains;
 
@@ -306,3 +307,5 @@ TEST_CASE("A recipe's limits of an axis of dates are dates") {
   CHECK_THROWS_WITH(figure("from = \"2026-02-03\", to = \"2026-02-03\""), Contains("must be before to"));
   CHECK_THROWS_WITH(figure("from = \"2026-02-03\", min = 3"), Contains("give from or min"));
 }
+
+}  // namespace time_ticks_tests

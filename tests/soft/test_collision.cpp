@@ -2,6 +2,7 @@
 
 #include "two_grains.hpp"
 
+namespace collision_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -185,3 +186,5 @@ TEST_CASE("free flight is a parabola") {
         Approx(2 * (0.3 * (3 * t + 0.15 * t * t) - 0.9 * (4 * t - 0.45 * t * t))).epsilon(1e-10));
   CHECK(std::abs(e.residual()) < 1e-10 * e.translation);
 }
+
+}  // namespace collision_tests

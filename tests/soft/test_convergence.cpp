@@ -2,6 +2,7 @@
 
 #include "two_grains.hpp"
 
+namespace convergence_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -124,3 +125,5 @@ TEST_CASE("slip decays stably below λ δt = 0.3 with gear5, below 2 with Verlet
   CHECK(slip_left(soft::Scheme::verlet, 1.9) < 1e-3);
   CHECK(slip_left(soft::Scheme::verlet, 2.1) > 1e3);
 }
+
+}  // namespace convergence_tests

@@ -2,6 +2,7 @@
 
 #include "small_chute.hpp"
 
+namespace energy_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -100,3 +101,5 @@ TEST_CASE("a head-on collision loses 1/2 m_eff v² (1 − e_n²), nothing by she
   CHECK(e.shear_loss == 0);
   CHECK(e.elastic == 0);
 }
+
+}  // namespace energy_tests

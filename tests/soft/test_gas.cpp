@@ -3,6 +3,7 @@
 #include "core/random.hpp"
 #include "two_grains.hpp"
 
+namespace gas_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -117,3 +118,5 @@ TEST_CASE("momentum is kept to rounding, with damping and friction too") {
   check_momentum<2>(rough, scheme, 64, 1.25);
   check_momentum<3>(rough, scheme, 125, 1.2);
 }
+
+}  // namespace gas_tests

@@ -2,6 +2,7 @@
 
 #include "small_chute.hpp"
 
+namespace impacts_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -160,3 +161,5 @@ TEST_CASE("a soft ball dropped on the top of a bead: the flights are 2v/g of the
   CHECK(impacts.back().rolling);
   for (const auto& impact : impacts) CHECK(impact.rolling == (impact.flight < 4 * s.contact_time));
 }
+
+}  // namespace impacts_tests

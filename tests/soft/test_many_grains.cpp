@@ -6,6 +6,7 @@
 #include "small_chute.hpp"
 #include "state.hpp"
 
+namespace many_grains_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -273,3 +274,5 @@ TEST_CASE("impacts are collected from a flow whose contacts remember, as if it h
     CHECK(a[k].v_n == Approx(b[k].v_n).margin(1e-6));
   }
 }
+
+}  // namespace many_grains_tests

@@ -2,6 +2,7 @@
 
 #include "two_grains.hpp"
 
+namespace oblique_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -116,3 +117,5 @@ TEST_CASE("without friction angular momentum is kept to rounding") {
   const auto after = oblique(4, 1, smooth(k, 0));
   CHECK(after.angular_momentum == Approx(after.angular_momentum_before).epsilon(1e-12));
 }
+
+}  // namespace oblique_tests

@@ -7,6 +7,7 @@
 #include "small_chute.hpp"
 #include "state.hpp"
 
+namespace open_ends_tests {
 using namespace chute;
 using namespace chute::test;
 using soft::SoftEngine;
@@ -323,3 +324,5 @@ TEST_CASE("a chute that has run empty goes on", "[open-ends]") {
   }
   CHECK(state(engine) == state(other));
 }
+
+}  // namespace open_ends_tests

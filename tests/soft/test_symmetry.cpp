@@ -2,6 +2,7 @@
 
 #include "two_grains.hpp"
 
+namespace symmetry_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -125,3 +126,5 @@ TEST_CASE("a mirrored 2D scene runs to the mirrored bytes") {
     CHECK(got.spin[0][i] == -straight.spin[0][i]);
   }
 }
+
+}  // namespace symmetry_tests

@@ -4,6 +4,7 @@
 #include "small_chute.hpp"
 #include "state.hpp"
 
+namespace twins_tests {
 using namespace chute;
 using namespace chute::test;
 
@@ -180,3 +181,5 @@ TEST_CASE("a coarse look finds the contacts that a full look finds, also where i
     }
   }
 }
+
+}  // namespace twins_tests

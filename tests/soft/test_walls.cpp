@@ -3,6 +3,7 @@
 
 #include "two_grains.hpp"
 
+namespace walls_tests {
 using namespace chute;
 using namespace chute::test;
 using soft::SoftEngine;
@@ -171,3 +172,5 @@ TEST_CASE(
     CHECK(engine.state().spin[0][0] == Approx(-10.0 / 7).epsilon(1e-3));
   }
 }
+
+}  // namespace walls_tests

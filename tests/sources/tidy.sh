@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # tidy.sh ROOT BUILD [PATTERN]: clang-tidy, with the checks of .clang-tidy, has nothing to say of src/ and render/, or of
-# the files that match PATTERN. It takes some seconds a file.
+# the files that match PATTERN. Everything is looked at in the groups that are compiled as one, which takes a quarter of the
+# time: nearly all of it goes into what they include.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/tool.sh"
 clang_tidy=$(tool clang-tidy)
 cd "$1"
-mapfile -t files < <(find src render -name '*.cpp' | grep -E "${3:-.}" | sort)
-((${#files[@]})) || { echo "no file matches ${3:-.}" && exit 1; }
-# Several files compiled as one have no entry of their own in the list of commands: clang-tidy gets a list where each has.
-commands=$2/each-file
+commands=$2/tidy
+together=ON
+[[ ${3:-} ]] && together=OFF
 mapfile -t same < <(sed -nE 's/^(VTK_DIR|CMAKE_BUILD_TYPE|CHUTE_WATCH):[^=]*=(.*)/-D\1=\2/p' "$2/CMakeCache.txt")
-cmake -S . -B "$commands" -G Ninja -DCMAKE_UNITY_BUILD=OFF "${same[@]}" >/dev/null
+cmake -S . -B "$commands" -G Ninja -DCMAKE_UNITY_BUILD=$together -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 "${same[@]}" >/dev/null
+mapfile -t files < <(sed -nE 's/^ *"file": "(.*)"$/\1/p' "$commands/compile_commands.json" |
+  grep -E "^($PWD|$commands)/(src|render)/" | grep -E "${3:-.}" | sort)
+((${#files[@]})) || { echo "no file matches ${3:-.}" && exit 1; }
 said=$(printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 "$clang_tidy" -p "$commands" --quiet \
-  --extra-arg=-Wno-unknown-warning-option 2>/dev/null) || true
+  --header-filter='/(src|render)/[^/]*/.*\.[ch]pp$' --extra-arg=-Wno-unknown-warning-option 2>/dev/null) || true
 # Headers come once for each file that includes them.
 problems=$(grep -E '^/.*(warning|error): ' <<<"$said" | sort -u) || true
 if [[ $problems ]]; then

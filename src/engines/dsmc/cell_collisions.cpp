@@ -10,7 +10,7 @@ namespace chute::dsmc {
 namespace {
 
 /// Cells are shared out and summed up in chunks, so that sums do not depend on threads.
-constexpr std::size_t chunk = 64;
+constexpr std::size_t cells_at_once = 64;
 
 /// Four random words of 32 bits at a time.
 struct Words {
@@ -104,12 +104,12 @@ template <int D>
 Tally CellCollisions<D>::collide(Grains<D>& grains, const GasCells<D>& cells, std::uint64_t step,
                                  Team& team) {
   if (setup_.dense == Dense::esmc) return collide_coloured(grains, cells, step, team);
-  const std::size_t chunks = (cells.count() + chunk - 1) / chunk;
+  const std::size_t chunks = (cells.count() + cells_at_once - 1) / cells_at_once;
   of_chunk_.resize(chunks);
   for (auto& c : of_chunk_) c = {};
   team.run([&](std::size_t k) {
     for (std::size_t at = chunks * k / team.size(); at < chunks * (k + 1) / team.size(); ++at)
-      for (std::size_t c = at * chunk; c < std::min((at + 1) * chunk, cells.count()); ++c)
+      for (std::size_t c = at * cells_at_once; c < std::min((at + 1) * cells_at_once, cells.count()); ++c)
         in_cell(grains, cells, c, step, buffers_[k], of_chunk_[at].tally);
   });
   Tally sum;
@@ -264,12 +264,12 @@ Tally CellCollisions<D>::collide_coloured(Grains<D>& grains, const GasCells<D>& 
       total *= lists[k]->size();
     }
     if (total == 0) continue;
-    const std::size_t chunks = (total + chunk - 1) / chunk;
+    const std::size_t chunks = (total + cells_at_once - 1) / cells_at_once;
     of_chunk_.resize(chunks);
     for (auto& c : of_chunk_) c = {};
     team.run([&](std::size_t member) {
       for (std::size_t c = chunks * member / team.size(); c < chunks * (member + 1) / team.size(); ++c)
-        for (std::size_t one = c * chunk; one < std::min((c + 1) * chunk, total); ++one) {
+        for (std::size_t one = c * cells_at_once; one < std::min((c + 1) * cells_at_once, total); ++one) {
           typename GasCells<D>::Index at;
           for (std::size_t k = 0, rest = one; k < D; ++k) {
             at[k] = (*lists[k])[rest % lists[k]->size()];

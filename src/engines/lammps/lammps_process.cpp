@@ -9,13 +9,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <thread>
 #include <vector>
 
 #include "common/atomic_file.hpp"
 #include "common/error.hpp"
+#include "common/programs.hpp"
 
 namespace chute::lammps {
 namespace fs = std::filesystem;
@@ -51,21 +51,7 @@ std::vector<std::string> bound_to_parent(std::vector<std::string> words) {
   return words;
 }
 
-}  // namespace
-
-fs::path find_program(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::string_view rest = path ? path : "/usr/bin:/bin";
-  while (!rest.empty()) {
-    const auto end = std::min(rest.find(':'), rest.size());
-    fs::path file = fs::path(rest.substr(0, end)) / name;
-    if (::access(file.c_str(), X_OK) == 0) return file;
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return {};
-}
-
-LammpsProcess::LammpsProcess(int ranks) {
+void refuse_what_is_missing(int ranks) {
   if (find_program("lmp").empty())
     throw InputError(
         "engine.method: \"lammps\" needs the program lmp, Debian's package lammps: apt-get install lammps");
@@ -77,14 +63,14 @@ LammpsProcess::LammpsProcess(int ranks) {
     throw InputError(
         fmt::format("--ranks {}: at most {} here, {} for each core; no more than cores is fastest", ranks,
                     most, most_a_core));
-  std::string name = (fs::temp_directory_path() / "chute-lammps-XXXXXX").string();
-  if (!::mkdtemp(name.data()))
-    throw WorkError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
-  folder_ = name;
-  start(ranks);
 }
 
+}  // namespace
+
+LammpsProcess::LammpsProcess(int ranks) : scratch_("lammps") { start(ranks); }
+
 void LammpsProcess::start(int ranks) {
+  refuse_what_is_missing(ranks);
   auto words = bound_to_parent({"lmp", "-log", "none", "-nocite"});
   if (ranks > 1) {
     std::vector<std::string> mpi{"mpirun", "-n", std::to_string(ranks), "--oversubscribe"};
@@ -98,7 +84,7 @@ void LammpsProcess::start(int ranks) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, pipe[0], 0);
-  ::posix_spawn_file_actions_addchdir_np(&actions, folder_.c_str());
+  ::posix_spawn_file_actions_addchdir_np(&actions, folder().c_str());
   ::posix_spawn_file_actions_addopen(&actions, 1, said, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::posix_spawn_file_actions_adddup2(&actions, 1, 2);
   // A Ctrl-C is for chute, which ends LAMMPS in order.
@@ -128,8 +114,6 @@ LammpsProcess::~LammpsProcess() {
       ::waitpid(process_, &status, 0);
     }
   }
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
 }
 
 bool LammpsProcess::has_ended() {
@@ -153,7 +137,7 @@ void LammpsProcess::send(std::string_view text) {
 void LammpsProcess::fail() {
   std::string text, why;
   try {
-    text = read_file(folder_ / said);
+    text = read_file(folder() / said);
   } catch (const std::exception&) {
     // then there is nothing that it said
   }
@@ -172,7 +156,7 @@ void LammpsProcess::fail() {
 
 void LammpsProcess::command(const std::string& commands) {
   // A file that appears when all before it is done: what LAMMPS writes to its screen may stay in a buffer.
-  const auto mark = folder_ / fmt::format("done-{}", ++marks_);
+  const auto mark = folder() / fmt::format("done-{}", ++marks_);
   send(fmt::format("{}print done file done-{} screen no\n", commands, marks_));
   auto pause = std::chrono::microseconds(50);
   constexpr auto longest = std::chrono::microseconds(5000);

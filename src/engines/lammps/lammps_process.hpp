@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "common/scratch_folder.hpp"
+
 namespace chute::lammps {
 
 /// LAMMPS at work: `lmp`, or `mpirun -n RANKS lmp`, that takes commands one after the other in a folder of its own, which goes with it.
@@ -15,12 +17,12 @@ class LammpsProcess {
   LammpsProcess(const LammpsProcess&) = delete;
   LammpsProcess& operator=(const LammpsProcess&) = delete;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return scratch_.path(); }
   /// Gives it the commands and returns when they are done. WorkError with LAMMPS's own words if it stops.
   void command(const std::string& commands);
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder scratch_;
   pid_t process_ = -1;
   int input_ = -1;
   long long marks_ = 0;
@@ -30,8 +32,5 @@ class LammpsProcess {
   [[noreturn]] void fail();
   bool has_ended();
 };
-
-/// Where a program of that name is found in PATH; empty if nowhere.
-std::filesystem::path find_program(const std::string& name);
 
 }  // namespace chute::lammps
