@@ -115,25 +115,25 @@ TEST_CASE("One model for all pairs has each pair's own damping, or is refused") 
 TEST_CASE("The older styles are taken where all pairs have the same coefficients over their masses") {
   laws::ContactLaws contact{laws::SpringDashpot::from_damping(1e4, 30, laws::MassScaling::damping),
                             coulomb(15, laws::MassScaling::damping), true};
-  const auto all = lammps::classic_model(contact, {mean, with_bed, odd});
+  const auto all = lammps::classic_model({{mean, &contact}, {with_bed, &contact}, {odd, &contact}});
   REQUIRE(all);
   CHECK(all->style == "hooke");
   CHECK(all->arguments == "10000 10000 30 15 0.4 1");
-  CHECK(lammps::classic_model_of_all(contact)->arguments == all->arguments);
+  CHECK(lammps::classic_model_of_all({&contact})->arguments == all->arguments);
   contact.attraction = false;
-  CHECK_THAT(lammps::classic_model(contact, {mean})->arguments, Contains(" limit_damping"));
+  CHECK_THAT(lammps::classic_model({{mean, &contact}})->arguments, Contains(" limit_damping"));
   // a restitution goes with the root of the mass: one pair alone is exact, several are not
   contact.normal = laws::SpringDashpot::from_restitution(1e4, 0.6);
-  CHECK_FALSE(lammps::classic_model(contact, {mean, with_bed}));
-  CHECK(lammps::classic_model(contact, {odd, odd}));
-  CHECK_FALSE(lammps::classic_model_of_all(contact));
+  CHECK_FALSE(lammps::classic_model({{mean, &contact}, {with_bed, &contact}}));
+  CHECK(lammps::classic_model({{odd, &contact}, {odd, &contact}}));
+  CHECK_FALSE(lammps::classic_model_of_all({&contact}));
   laws::CundallStrack spring;
   spring.stiffness = {8e3, 0, 0, 0}, spring.spring.friction = 0.5;
   contact.shear = spring;
-  CHECK(lammps::classic_model(contact, {mean})->style == "hooke/history");
+  CHECK(lammps::classic_model({{mean, &contact}})->style == "hooke/history");
   spring.spring.cap = false;
   contact.shear = spring;
-  CHECK_FALSE(lammps::classic_model(contact, {mean}));
+  CHECK_FALSE(lammps::classic_model({{mean, &contact}}));
   CHECK(lammps::model_of(contact, mean).wrong->key == "contact.tangential.cap");
 }
 

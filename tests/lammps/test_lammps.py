@@ -1,4 +1,5 @@
 """LAMMPS moves grains as the soft engine does: test_lammps.py CHUTE. Exit status 77 where the program lmp is missing."""
+import math
 import os
 import shutil
 import signal
@@ -65,6 +66,68 @@ point = [0, 6, 0]
 normal = [0, -1, -0.1]
 [bed]
 kind = "flat\"""").replace(", std = 0.05", "")
+
+
+# Three materials, a wall of one and a flat bed of another; each two meet in their own way.
+MIXED = """title = "mixed"
+seed = 3
+dimensions = 3
+[incline]
+angle = "20 deg"
+[domain]
+periodic = ["x"]
+size = [8, 6]
+[[wall]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+material = "bed"
+friction = 0.3
+[[wall]]
+point = [0, 6, 0]
+normal = [0, -1, 0]
+material = "heavy"
+restitution = 0.4
+[bed]
+kind = "flat"
+material = "bed"
+[[material]]
+name = "light"
+share = 0.7
+diameter = { mean = 1.0 }
+[[material]]
+name = "heavy"
+share = 0.3
+density = 2
+diameter = { mean = 1.2 }
+[[material]]
+name = "bed"
+[grains]
+count = 60
+start = { velocity = 2, spread = 1 }
+[contact.normal]
+law = "spring-dashpot"
+stiffness = 1e4
+restitution = 0.8
+[contact.tangential]
+law = "frictionless"
+[engine]
+integrator = "verlet"
+[run]
+duration = 1
+[output]
+frames = { every = 0.1 }
+series = { every = 0.1 }
+"""
+BETWEEN = ["""[[contact.between]]
+materials = ["light", "heavy"]
+restitution = 0.5
+""", """[[contact.between]]
+materials = ["heavy", "heavy"]
+normal = { stiffness = 3e4 }
+""", """[[contact.between]]
+materials = ["bed", "light"]
+restitution = 0.3
+"""]
 
 
 def grains(file, rows):
@@ -248,6 +311,47 @@ class Lammps(unittest.TestCase):
                       'contact.normal={law="spring-dashpot",stiffness=1e4,restitution=0.6}')
         soft, other = self.after("soft", 1), self.after("lammps", 1)
         self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-10)
+
+    @unittest.skipUnless(THERE, "lmp")
+    def test_materials_meet_in_their_own_ways(self):
+        """Laws by pair, and walls and a bed of a material: the same places; laws that are all one are the older, exact style."""
+        scene = MIXED.replace("friction = 0.3\n", "")
+        self.write("mixed.toml", scene + "".join(BETWEEN))
+        self.run_both("mixed.toml")
+        soft, other = self.after("soft", 10), self.after("lammps", 10)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
+        without = [scene + "".join(BETWEEN[:k] + BETWEEN[k + 1:]) for k in range(3)]
+        without.append(scene.replace("restitution = 0.4\n", "") + "".join(BETWEEN))
+        for k, text in enumerate(without):  # each of them matters
+            self.write("without.toml", text)
+            self.call("run", "without.toml", "-o", "without", "--force", "--quiet")
+            self.assertGreater(max(abs(a - b) for a, b in zip(soft, self.after("without", 10))), 1e-6, k)
+        self.call("export", "mixed.toml", "--lammps", "deck", "--quiet")
+        with open(self.path("deck", "in.lammps"), encoding="utf-8") as file:
+            self.assertIn("pair_style granular", file.read())
+        # friction by pair, in `granular` with the lever R - xi/2: the same but for that
+        rubs = MIXED.replace('law = "frictionless"', 'law = "cundall-strack"\nstiffness_ratio = 0.3\nfriction = 0.5')
+        self.write("rubs.toml", rubs + "".join(BETWEEN) + BETWEEN[2].replace("bed", "light").replace("restitution = 0.3", "friction = 0.1"))
+        fine = ("run.duration=0.6", "engine.steps_per_contact=400")
+        self.run_both("rubs.toml", *fine)
+        soft, other = self.after("soft", 6), self.after("lammps", 6)
+        lever = math.dist(soft, other)
+        self.assertLess(lever, 0.2)
+        self.write("rubs.toml", rubs + "".join(BETWEEN))
+        self.run_both("rubs.toml", *fine)
+        self.assertGreater(math.dist(soft, self.after("soft", 6)), 5 * lever)
+        # more sizes than types, by material
+        self.write("many.toml", scene[:scene.index("[[wall]]")] + scene[scene.index("[bed]"):].replace("mean = 1.0", "mean = 1.0, std = 0.02")
+                   + "".join(BETWEEN))
+        self.run_both("many.toml", "grains.count=600", "domain.size=[20,15]", "run.duration=0.1")
+        soft, other = self.after("soft", 1), self.after("lammps", 1)
+        self.assertLess(max(abs(a - b) for a, b in zip(soft, other)), 1e-9)
+        # nothing between them is their own: as one material
+        plain = FLOW.replace("[grains]", '[[material]]\nname = "a"\nshare = 1\n[grains]')
+        self.write("plain.toml", plain)
+        self.call("export", "plain.toml", "--lammps", "plain", "--quiet")
+        with open(self.path("plain", "in.lammps"), encoding="utf-8") as file:
+            self.assertIn("pair_style gran/hooke", file.read())
 
     @unittest.skipUnless(THERE, "lmp")
     def test_walls_that_move(self):

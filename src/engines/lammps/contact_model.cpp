@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "common/root.hpp"
 
@@ -171,11 +172,13 @@ ContactModel shear_for_all(const laws::Shear& shear, const NormalForAll& normal)
 
 /// The coefficients of an older style for one pair: along and across, springs and dampings over m_eff.
 struct Classic {
-  const char* style;
+  std::string_view style;
   double k_n, k_t, gamma_n, gamma_t, friction;
+  bool attraction = true;
   bool agrees_with(const Classic& o) const {
     const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-14 * std::abs(a); };
-    return same(k_n, o.k_n) && same(k_t, o.k_t) && same(gamma_n, o.gamma_n) && same(gamma_t, o.gamma_t);
+    return style == o.style && attraction == o.attraction && friction == o.friction && same(k_n, o.k_n) &&
+           same(k_t, o.k_t) && same(gamma_n, o.gamma_n) && same(gamma_t, o.gamma_t);
   }
 };
 
@@ -212,18 +215,20 @@ std::optional<Classic> classic_of(const laws::ContactLaws& laws, laws::Pair p) {
 
 }  // namespace
 
-std::optional<ClassicModel> classic_model(const laws::ContactLaws& laws,
-                                          const std::vector<laws::Pair>& pairs) {
+std::optional<ClassicModel> classic_model(const std::vector<MeetingKinds>& meetings) {
   std::optional<Classic> all;
-  for (const auto& pair : pairs) {
-    const auto model = classic_of(laws, pair);
-    if (!model || (all && !all->agrees_with(*model))) return {};
+  for (const auto& two : meetings) {
+    auto model = classic_of(*two.laws, two.pair);
+    if (!model) return {};
+    model->attraction = two.laws->attraction;
+    if (all && !all->agrees_with(*model)) return {};
     if (!all) all = model;
   }
   if (!all) return {};
-  return ClassicModel{all->style, fmt::format("{} {} {} {} {} {}{}", all->k_n, all->k_t, all->gamma_n,
-                                              all->gamma_t, all->friction, all->gamma_t > 0 ? 1 : 0,
-                                              laws.attraction ? "" : " limit_damping")};
+  return ClassicModel{
+      std::string(all->style),
+      fmt::format("{} {} {} {} {} {}{}", all->k_n, all->k_t, all->gamma_n, all->gamma_t, all->friction,
+                  all->gamma_t > 0 ? 1 : 0, all->attraction ? "" : " limit_damping")};
 }
 
 ContactModel model_of(const laws::ContactLaws& laws, laws::Pair pair) {
@@ -243,8 +248,11 @@ ContactModel model_of_all(const laws::ContactLaws& laws) {
   return {joined(normal.text, shear.text, laws.attraction), {}};
 }
 
-std::optional<ClassicModel> classic_model_of_all(const laws::ContactLaws& laws) {
-  return classic_model(laws, {alike.begin(), alike.end()});
+std::optional<ClassicModel> classic_model_of_all(const std::vector<const laws::ContactLaws*>& all) {
+  std::vector<MeetingKinds> meetings;
+  for (const auto* laws : all)
+    for (const auto& pair : alike) meetings.push_back({pair, laws});
+  return classic_model(meetings);
 }
 
 }  // namespace chute::lammps

@@ -41,12 +41,16 @@ struct ContactModel {
 struct ClassicModel {
   std::string style, arguments;
 };
-/// The older style that gives all these pairs their laws, if there is one.
-std::optional<ClassicModel> classic_model(const laws::ContactLaws& laws,
-                                          const std::vector<laws::Pair>& pairs);
+/// Two kinds of grains, and what acts between them.
+struct MeetingKinds {
+  laws::Pair pair;
+  const laws::ContactLaws* laws;
+};
+/// The older style that gives all of these their laws, if there is one.
+std::optional<ClassicModel> classic_model(const std::vector<MeetingKinds>& all);
 
-/// The same for pairs of any masses and radii.
-std::optional<ClassicModel> classic_model_of_all(const laws::ContactLaws& laws);
+/// The same for pairs of any masses and radii with each of these laws.
+std::optional<ClassicModel> classic_model_of_all(const std::vector<const laws::ContactLaws*>& all);
 
 /// For pairs that all have these masses and radii. Every coefficient is exact.
 ContactModel model_of(const laws::ContactLaws& laws, laws::Pair pair);

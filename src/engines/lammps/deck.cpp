@@ -6,8 +6,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "core/sphere.hpp"
+#include "engines/kind/soft_laws.hpp"
 
 namespace chute::lammps {
 namespace {
@@ -20,23 +22,16 @@ constexpr std::size_t most_wall_kinds = 12;
 constexpr double skin =
     0.3;  // of a mean grain's diameter: how much farther than contact LAMMPS's neighbour lists look
 
-/// The laws of contacts with a wall that has a friction or restitution of its own.
-laws::ContactLaws laws_of_wall(const engines::Setting& setting, const WallSurface& own, double dt) {
-  auto contact = setting.contact;
-  if (own.restitution) laws::set_restitution(contact.normal, *own.restitution);
-  auto laws = contact.laws(setting.reference());
-  laws::know_time_step(laws, dt);
-  if (own.friction)
-    if (double* mu = laws::friction(laws.shear)) *mu = *own.friction;
-  return laws;
-}
-
 template <int D>
 class DeckMaker {
  public:
   DeckMaker(const World<D>& world, const engines::Setting& setting, double dt)
       : world_(world), setting_(setting), dt_(dt), laws_(setting.contact.laws(setting.reference())) {
     laws::know_time_step(laws_, dt);
+    const auto between = engines::laws_between(setting);
+    materials_ = between.materials();
+    between_ = between.values();
+    for (auto& laws : between_) laws::know_time_step(laws, dt);
   }
 
   DeckOrRefusal<D> make() {
@@ -53,6 +48,9 @@ class DeckMaker {
   const engines::Setting& setting_;
   double dt_;
   laws::ContactLaws laws_;
+  std::size_t materials_ = 0;
+  std::vector<laws::ContactLaws>
+      between_;  // of materials a and b at a · materials_ + b; empty: laws_ for all
   Deck deck_;
   std::optional<Refusal> wrong_;
   std::vector<GrainKind> kinds_;
@@ -63,25 +61,29 @@ class DeckMaker {
     return static_cast<std::size_t>(std::ranges::count_if(kinds_, [](const auto& k) { return !k.fixed; }));
   }
 
-  void sort_into_kinds() {
+  /// What grains of one kind have in common; fixed ones sort last.
+  using KindKey = std::tuple<bool, int, double, double>;
+  KindKey key_of(std::size_t i) const {
     const auto& g = world_.grains;
-    std::map<std::tuple<bool, double, double>, std::size_t> known;
-    for (std::size_t i = 0; i < g.size(); ++i)
-      known.emplace(std::tuple(i >= g.moving, g.radius[i], g.mass[i]), 0);
+    const int material = between_.empty() ? 0 : g.material[i];
+    return apart_ ? KindKey{i >= g.moving, material, g.radius[i], g.mass[i]}
+                  : KindKey{i >= g.moving, material, 0, 0};
+  }
+  void sort_into_kinds() {
+    std::map<KindKey, std::size_t> known;
+    const auto note_all = [&] {
+      known.clear();
+      for (std::size_t i = 0; i < world_.grains.size(); ++i) known.emplace(key_of(i), 0);
+    };
+    note_all();
     apart_ = known.size() <= most_kinds;
-    kind_of_.resize(g.size());
-    if (!apart_) {
-      kinds_ = {{0, 0, false}, {0, 0, true}};
-      if (g.size() == g.moving) kinds_.pop_back();
-      for (std::size_t i = 0; i < g.size(); ++i) kind_of_[i] = i >= g.moving;
-      return;
-    }
-    for (auto& [key, number] : known) {  // fixed ones sort last
+    if (!apart_) note_all();
+    for (auto& [key, number] : known) {
       number = kinds_.size();
-      kinds_.push_back({std::get<1>(key), std::get<2>(key), std::get<0>(key)});
+      kinds_.push_back({std::get<2>(key), std::get<3>(key), std::get<0>(key), std::get<1>(key)});
     }
-    for (std::size_t i = 0; i < g.size(); ++i)
-      kind_of_[i] = known.at(std::tuple(i >= g.moving, g.radius[i], g.mass[i]));
+    kind_of_.resize(world_.grains.size());
+    for (std::size_t i = 0; i < kind_of_.size(); ++i) kind_of_[i] = known.at(key_of(i));
   }
 
   std::string begin() const {
@@ -103,28 +105,45 @@ class DeckMaker {
     return {a.fixed ? b.mass : b.fixed ? a.mass : a.mass * b.mass / (a.mass + b.mass), R};
   }
 
-  std::vector<laws::Pair> pairs_that_meet() const {
+  const laws::ContactLaws& laws_of(const GrainKind& a, const GrainKind& b) const {
+    if (between_.empty()) return laws_;
+    return between_[static_cast<std::size_t>(a.material) * materials_ + static_cast<std::size_t>(b.material)];
+  }
+
+  std::vector<MeetingKinds> kinds_that_meet() const {
     std::vector<std::size_t> grains_of(kinds_.size());
     for (const auto kind : kind_of_) ++grains_of[kind];
-    std::vector<laws::Pair> pairs;
+    std::vector<MeetingKinds> all;
     for (std::size_t a = 0; a < moving_kinds(); ++a)
       for (std::size_t b = a; b < kinds_.size(); ++b)
-        if (a != b || grains_of[a] > 1) pairs.push_back(pair_of(kinds_[a], kinds_[b]));
-    return pairs;
+        if (a != b || grains_of[a] > 1)
+          all.push_back(
+              {apart_ ? pair_of(kinds_[a], kinds_[b]) : laws::Pair(1), &laws_of(kinds_[a], kinds_[b])});
+    return all;
+  }
+
+  std::optional<ClassicModel> classic() const {
+    const auto meetings = kinds_that_meet();
+    if (apart_) return classic_model(meetings);
+    std::vector<const laws::ContactLaws*> laws;
+    for (const auto& two : meetings) laws.push_back(two.laws);
+    return classic_model_of_all(laws);
   }
 
   std::string contacts() {
     std::string text;
-    if (const auto classic = apart_ ? classic_model(laws_, pairs_that_meet()) : classic_model_of_all(laws_)) {
-      text = fmt::format("pair_style gran/{} {}\npair_coeff * *\n", classic->style, classic->arguments);
-    } else if (!apart_) {
-      text = fmt::format("pair_style granular\npair_coeff * * {}\n", accept(model_of_all(laws_)));
+    if (const auto model = classic()) {
+      text = fmt::format("pair_style gran/{} {}\npair_coeff * *\n", model->style, model->arguments);
     } else {
       text = "pair_style granular\n";
       for (std::size_t a = 0; a < kinds_.size() && !wrong_; ++a)
-        for (std::size_t b = a; b < kinds_.size() && !wrong_; ++b)  // that of two fixed grains is never used
-          text += fmt::format("pair_coeff {} {} {}\n", a + 1, b + 1,
-                              accept(model_of(laws_, pair_of(kinds_[a], kinds_[b]))));
+        for (std::size_t b = a; b < kinds_.size() && !wrong_;
+             ++b) {  // that of two fixed grains is never used
+          const auto& laws = laws_of(kinds_[a], kinds_[b]);
+          text += fmt::format(
+              "pair_coeff {} {} {}\n", a + 1, b + 1,
+              accept(apart_ ? model_of(laws, pair_of(kinds_[a], kinds_[b])) : model_of_all(laws)));
+        }
     }
     const auto moving = moving_kinds(), all = kinds_.size();
     text += fmt::format("group grains type {}:{}\n", 1, moving);
@@ -145,12 +164,8 @@ class DeckMaker {
     if (norm(g) > 0)
       text += fmt::format("fix gravity grains gravity {} vector {} {} {}\n", norm(g), g[0], g[1],
                           D == 3 ? g[D - 1] : 0.0);
-    const std::size_t beds_own =
-        world_.walls.size() - setting_.wall_surfaces.size();  // a flat bed is the first
     deck_.wall_fixes.resize(world_.walls.size());
-    for (std::size_t w = 0; w < world_.walls.size() && !wrong_; ++w)
-      text +=
-          wall(w, w < beds_own ? laws_ : laws_of_wall(setting_, setting_.wall_surfaces[w - beds_own], dt_));
+    for (std::size_t w = 0; w < world_.walls.size() && !wrong_; ++w) text += wall(w);
     if (kinds_.size() > moving_kinds()) text += "fix freeze bed freeze\n";  // counts as infinitely heavy
     if (D == 2) text += "fix plane all enforce2d\n";
     return text;
@@ -194,7 +209,9 @@ class DeckMaker {
     return {variables + region, "wall/gran/region", fmt::format("region wall{}", w)};
   }
 
-  std::string wall(std::size_t w, const laws::ContactLaws& laws) {
+  std::string wall(std::size_t w) {
+    auto by_grain = engines::laws_of_wall(setting_, world_.walls[w].surface);
+    for (auto& laws : by_grain) laws::know_time_step(laws, dt_);
     Border at = border(w);
     const auto add = [&](const std::string& group, const std::string& model) {
       const auto name = fmt::format("wall{}_{}", w, deck_.wall_fixes[w].size());
@@ -204,15 +221,30 @@ class DeckMaker {
     const auto text_for = [&](const std::optional<ClassicModel>& classic, const auto& model) {
       return classic ? classic->style + " " + classic->arguments : "granular " + accept(model());
     };
-    if (!apart_ || moving_kinds() > most_wall_kinds) {
-      add("grains", text_for(classic_model_of_all(laws), [&] { return model_of_all(laws); }));
+    const bool one_material = by_grain.size() == 1;
+    if (one_material && (!apart_ || moving_kinds() > most_wall_kinds)) {
+      const auto& laws = by_grain.front();
+      add("grains", text_for(classic_model_of_all({&laws}), [&] { return model_of_all(laws); }));
       return at.commands;
+    }
+    if (moving_kinds() > most_wall_kinds) {
+      wrong_ = Refusal{
+          "wall",
+          fmt::format(
+              "with contacts by material LAMMPS looks at all grains once for each size and material: {} "
+              "of them are too many, {} can be",
+              moving_kinds(), most_wall_kinds)};
+      return {};
     }
     for (std::size_t k = 0; k < moving_kinds() && !wrong_; ++k) {
       if (w == 0) at.commands += fmt::format("group kind{} type {}\n", k + 1, k + 1);
+      const auto& laws = by_grain[one_material ? 0 : static_cast<std::size_t>(kinds_[k].material)];
       const laws::Pair pair(kinds_[k].mass, kinds_[k].radius);
-      add(fmt::format("kind{}", k + 1),
-          text_for(classic_model(laws, {pair}), [&] { return model_of(laws, pair); }));
+      const auto group = fmt::format("kind{}", k + 1);
+      if (apart_)
+        add(group, text_for(classic_model({{pair, &laws}}), [&] { return model_of(laws, pair); }));
+      else
+        add(group, text_for(classic_model_of_all({&laws}), [&] { return model_of_all(laws); }));
     }
     return at.commands;
   }
@@ -268,19 +300,7 @@ std::optional<Refusal> refusal_of_laws(const engines::Setting& setting) {
   const auto pair = setting.reference();
   if (auto model = model_of(setting.contact.laws(pair), {pair.m_eff, setting.mean_diameter / 4}); model.wrong)
     return model.wrong;
-  for (std::size_t w = 0; w < setting.wall_surfaces.size(); ++w) {
-    const auto& own = setting.wall_surfaces[w];
-    const auto refuse = [&](const char* key, const char* what) {
-      return Refusal{fmt::format("wall[{}].{}", w, key), what};
-    };
-    auto shear = setting.contact.laws(pair).shear;
-    auto normal = setting.contact.normal;
-    if (own.friction && !laws::friction(shear))
-      return refuse("friction", "the law of [contact.tangential] has no friction");
-    if (own.restitution && (*own.restitution == 0 || !laws::set_restitution(normal, *own.restitution)))
-      return refuse("restitution", "the law of [contact.normal] takes no such restitution");
-  }
-  return {};
+  return engines::refusal_of_own_laws(setting);
 }
 
 std::string input_script(const Deck& deck, std::int64_t steps, std::int64_t every) {

@@ -9,10 +9,11 @@
 
 namespace chute::lammps {
 
-/// Grains of one radius, mass and mobility: a type of LAMMPS's atoms. Fixed ones come last.
+/// Grains of one radius, mass, material and mobility: a type of LAMMPS's atoms. Fixed ones come last.
 struct GrainKind {
   double radius = 0, mass = 0;
   bool fixed = false;
+  int material = 0;
 };
 
 /// A scene in the words of LAMMPS.

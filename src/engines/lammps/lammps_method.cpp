@@ -1,6 +1,7 @@
 #include "engines/lammps/lammps_method.hpp"
 
 #include "common/error.hpp"
+#include "engines/kind/soft_laws.hpp"
 #include "engines/lammps/lammps_engine.hpp"
 
 namespace chute::lammps {
@@ -22,19 +23,21 @@ std::unique_ptr<Engine> made(World<D> world, const LammpsMethod& method, const e
 }  // namespace
 
 Offers LammpsMethod::offers() const {
-  return {.contacts = true, .walls = true, .wall_motion = true, .wall_surfaces = true};
+  return {.contacts = true, .walls = true, .wall_motion = true, .wall_surfaces = true, .materials = true};
 }
 
 std::optional<Refusal> LammpsMethod::refusal(const engines::Setting& s) const { return refusal_of_laws(s); }
 
 double LammpsMethod::step(const engines::Setting& s) const {
   if (time_step) return *time_step;
-  const double t_n = s.contact.impact(s.reference(), s.shortest().pair).contact_time;
-  return engines::step_dividing(s.between_outputs, t_n / steps_per_contact);
+  return engines::step_dividing(s.between_outputs,
+                                engines::shortest_contact(s).contact_time / steps_per_contact);
 }
 
 std::vector<Fact> LammpsMethod::facts(const engines::Setting& s) const {
   auto list = laws::impact_facts(s.contact, s.si, s.pairs);
+  const auto pairs = engines::facts_of_pairs(s);
+  list.insert(list.end(), pairs.begin(), pairs.end());
   const auto rest = laws::step_facts(s.contact, s.si, s.pairs.front(), step(s));
   list.insert(list.end(), rest.begin(), rest.end());
   return list;

@@ -9,48 +9,27 @@
 #include <span>
 
 #include "engines/kind/memory.hpp"
+#include "engines/kind/soft_laws.hpp"
 #include "engines/soft/clump_engine.hpp"
 
 namespace chute::soft {
 namespace {
 
-/// The laws with what is a wall's own. A restitution is that of the reference pair where it depends on the pair.
-laws::ContactLaws with_own(laws::ContactSpec contact, laws::Pair reference, const WallSurface& own,
-                           laws::KeepLaw keep) {
-  if (own.restitution) laws::set_restitution(contact.normal, *own.restitution);
-  auto laws = keep == laws::KeepLaw::yes ? contact.laws_of_pair(reference) : contact.laws(reference);
-  if (own.friction) *laws::friction(laws.shear) = *own.friction;
-  return laws;
-}
-
 /// The laws of contacts with a wall: empty if it has neither friction nor restitution of its own, and all are of one material.
-std::optional<LawTable> laws_of_wall(const engines::Setting& setting, const WallSurface& own) {
-  if (!setting.by_pair()) {
-    if (!own.friction && !own.restitution) return {};
-    return LawTable(with_own(setting.contact, setting.reference(), own, laws::KeepLaw::no));
-  }
-  std::vector<laws::ContactLaws> by_grain(setting.materials.size(),
-                                          setting.contact.laws_of_pair(setting.reference()));
-  for (const auto& two : setting.meetings())
-    for (const auto& [wall, grain] : {std::pair(two.a, two.b), std::pair(two.b, two.a)})
-      if (wall == own.material)
-        by_grain[static_cast<std::size_t>(grain)] =
-            with_own(two.contact, two.reference, own, laws::KeepLaw::yes);
-  return LawTable(by_grain);
+std::optional<LawTable> table_of_wall(const engines::Setting& setting, const WallSurface& own) {
+  if (setting.by_pair()) return LawTable(engines::laws_of_wall(setting, own));
+  if (!own.friction && !own.restitution) return {};
+  return LawTable(engines::laws_of_wall(setting, own).front());
 }
 
 template <int D>
 std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const engines::Setting& setting,
                              int threads) {
   SoftSetup<D> setup{world.surroundings()};
-  setup.laws = setting.contact.laws(setting.reference());
-  if (setting.by_pair()) {
-    setup.laws = setting.contact.laws_of_pair(setting.reference());
-    setup.between = setting.for_pairs(setup.laws, [](const engines::MeetingMaterials& two) {
-      return two.contact.laws_of_pair(two.reference);
-    });
-  }
-  for (const auto& wall : setup.walls) setup.wall_laws.push_back(laws_of_wall(setting, wall.surface));
+  setup.between = engines::laws_between(setting);
+  setup.laws = setting.by_pair() ? setting.contact.laws_of_pair(setting.reference())
+                                 : setting.contact.laws(setting.reference());
+  for (const auto& wall : setup.walls) setup.wall_laws.push_back(table_of_wall(setting, wall.surface));
   setup.scheme = method.integrator;
   setup.ends = method.contact_ends;
   setup.time_step = method.step(setting);
@@ -61,40 +40,6 @@ std::unique_ptr<Engine> made(World<D> world, const SoftMethod& method, const eng
   if (world.clumps.any())
     return std::make_unique<ClumpEngine<D>>(std::move(world.grains), std::move(world.clumps), setup);
   return std::make_unique<SoftEngine<D>>(std::move(world.grains), setup);
-}
-
-/// The contact that is over first, and how long it takes: that of the smallest grains, and where contacts depend on who meets the
-/// shortest of all pairs.
-struct Shortest {
-  double contact_time;
-  std::string who;
-};
-Shortest shortest(const engines::Setting& s) {
-  Shortest least{s.contact.impact(s.reference(), s.shortest().pair).contact_time, s.shortest().name};
-  if (!s.by_pair()) return least;
-  least.contact_time = std::numeric_limits<double>::infinity();
-  for (const auto& two : s.meetings()) {
-    const double t_n = two.contact.impact(two.reference, two.stiffest).contact_time;
-    if (t_n < least.contact_time) least = {t_n, "the smallest grains of " + two.name};
-  }
-  return least;
-}
-
-/// What each two materials come to, where they are not all the same.
-std::vector<Fact> pair_facts(const engines::Setting& s) {
-  std::vector<Fact> list;
-  if (!s.by_pair()) return list;
-  for (const auto& two : s.meetings()) {
-    const double v = two.contact.at_velocity().value_or(1);
-    auto laws = two.contact.laws_of_pair(two.reference);
-    const auto impact = laws::normal_impact(laws, v, two.mean);
-    list.push_back(
-        {"t_n " + two.name, impact.contact_time, s.in("s", "sqrt(d/g)"), "contact time of mean grains"});
-    list.push_back({"e_n " + two.name, impact.restitution, "", "restitution of mean grains"});
-    if (const double* mu = laws::friction(laws.shear))
-      list.push_back({"mu " + two.name, *mu, "", "friction"});
-  }
-  return list;
 }
 
 /// Residual of the energy account over gravity's work in flows, against decay = γ_s dt 7/(2 m_eff): where slip dies away within
@@ -145,49 +90,21 @@ Offers SoftMethod::offers() const {
 }
 
 std::optional<Refusal> SoftMethod::refusal(const engines::Setting& s) const {
-  for (std::size_t w = 0; w < s.wall_surfaces.size(); ++w) {
-    const auto& own = s.wall_surfaces[w];
-    const auto refuse = [&](const char* key, const char* what) {
-      return Refusal{"wall[" + std::to_string(w) + "]." + key, what};
-    };
-    auto shear = s.contact.laws(s.reference()).shear;
-    if (own.friction && !laws::friction(shear))
-      return refuse("friction", "the law of [contact.tangential] has no friction");
-    auto normal = s.contact.normal;
-    if (own.restitution && *own.restitution == 0)
-      return refuse("restitution", "0 is not allowed for soft grains, must be > 0");
-    if (own.restitution && !laws::set_restitution(normal, *own.restitution))
-      return refuse("restitution", "the law of [contact.normal] takes no restitution");
-  }
-  for (std::size_t k = 0; k < s.contact.between.size(); ++k) {
-    const auto& own = s.contact.between[k];
-    const auto refuse = [&](const std::string& key, const std::string& what) {
-      return Refusal{fmt::format("contact.between[{}].{}", k, key), what};
-    };
-    auto contact = s.contact;
-    auto shear = contact.laws_of_pair(s.reference()).shear;
-    if (own.friction && !laws::friction(shear))
-      return refuse("friction", "the law of [contact.tangential] has no friction");
-    if (own.restitution && *own.restitution == 0)
-      return refuse("restitution", "0 is not allowed for soft grains, must be > 0");
-    if (auto normal = contact.normal; own.restitution && !laws::set_restitution(normal, *own.restitution))
-      return refuse("restitution", "the law of [contact.normal] takes no restitution");
-    if (const auto wrong = laws::put_in(contact, own)) return refuse(wrong->key, wrong->message);
-  }
-  return {};
+  return engines::refusal_of_own_laws(s);
 }
 
 double SoftMethod::step(const engines::Setting& s) const {
   if (time_step) return *time_step;
-  return engines::step_dividing(s.between_outputs, shortest(s).contact_time / steps_per_contact);
+  return engines::step_dividing(s.between_outputs,
+                                engines::shortest_contact(s).contact_time / steps_per_contact);
 }
 
 std::vector<Fact> SoftMethod::facts(const engines::Setting& s) const {
   auto list = laws::impact_facts(s.contact, s.si, s.pairs);
-  const auto pairs = pair_facts(s);
+  const auto pairs = engines::facts_of_pairs(s);
   list.insert(list.end(), pairs.begin(), pairs.end());
   const double dt = step(s);
-  const auto least = shortest(s);
+  const auto least = engines::shortest_contact(s);
   if (s.stiffest || s.by_pair())
     list.push_back({"t_n/dt least", least.contact_time / dt, "",
                     "steps in the contact of " + least.who + ", which sets dt"});
@@ -208,7 +125,7 @@ double SoftMethod::expected_residual(double decay) const {
 std::vector<std::string> SoftMethod::warnings(const engines::Setting& s) const {
   constexpr double good = 0.08, begins = 0.1;  // of the decay of slip in a step
   constexpr double fewest_steps = 5;           // as steps_per_contact has it
-  const double dt = step(s), t_n = shortest(s).contact_time;
+  const double dt = step(s), t_n = engines::shortest_contact(s).contact_time;
   std::vector<std::string> told;
   if (time_step && t_n / dt < fewest_steps)
     told.push_back(fmt::format(
