@@ -103,7 +103,9 @@ FolderLock::~FolderLock() {
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
-    : name_(other.name_), folder_(std::exchange(other.folder_, -1)), file_(std::exchange(other.file_, -1)) {}
+    : name_(std::move(other.name_)),
+      folder_(std::exchange(other.folder_, -1)),
+      file_(std::exchange(other.file_, -1)) {}
 
 FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
   std::swap(name_, other.name_);

@@ -26,7 +26,8 @@ std::size_t index_of_strip(double strip) {
   return static_cast<std::size_t>(strip >= 0 ? 2 * strip : -2 * strip - 1);
 }
 double strip_of_index(std::size_t index) {
-  const auto half = static_cast<double>((index + 1) / 2);
+  const std::size_t from_0 = (index + 1) / 2;
+  const auto half = static_cast<double>(from_0);
   return index % 2 == 0 ? half : -half;
 }
 

@@ -91,9 +91,9 @@ void NeighbourList<D>::build_far(const Grains<D>& grains, Team& team) {
     for (int k = 0; k < D; ++k)
       if (!std::isfinite(grains.position[k][i])) throw NotANumber{i};
   if (method_ == Method::cells)
-    grid_.find(grains, domain_, skins_.far, far_, team);
+    grid_.find(grains, domain_, skins_.far + skins_.apart, far_, team);
   else
-    all_pairs(grains, domain_, skins_.far, far_);
+    all_pairs(grains, domain_, skins_.far + skins_.apart, far_);
   drift_ = 0;
   ++far_builds_;
 }
@@ -106,11 +106,12 @@ void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
     const auto is_near = [&](std::size_t p) {
       const auto i = static_cast<std::size_t>(far_.i[p]), j = static_cast<std::size_t>(far_.j[p]);
       const auto way = domain_.way(grains.place(i), grains.place(j));
-      const double reach = grains.radius[i] + grains.radius[j];
+      const double reach = grains.radius[i] + grains.radius[j] + skins_.apart;
       return dot(way, way) < (reach + skins_.near) * (reach + skins_.near);
     };
     for_those(range, is_near, [&](std::size_t p) {
-      pairs.add(grains, static_cast<std::size_t>(far_.i[p]), static_cast<std::size_t>(far_.j[p]));
+      pairs.add(grains, static_cast<std::size_t>(far_.i[p]), static_cast<std::size_t>(far_.j[p]),
+                skins_.apart);
     });
   };
   parts_.resize(team.size() - 1);
@@ -123,7 +124,7 @@ void NeighbourList<D>::build_near(const Grains<D>& grains, Team& team) {
 template <int D>
 void NeighbourList<D>::set_up_coarse(const Grains<D>& grains) {
   const auto largest = std::max_element(grains.radius.begin(), grains.radius.end());
-  coarse_.set_up(domain_, largest == grains.radius.end() ? 1 : 2 * (*largest + skins_.near));
+  coarse_.set_up(domain_, largest == grains.radius.end() ? 1 : 2 * (*largest + skins_.near + skins_.apart));
   for (auto& word : coarse_.word) word.resize(grains.size());
   for (int k = 0; k < D; ++k) near_places_[k] = grains.position[k];  // of the bed, too, for this once
   survey(grains, {0, grains.size()});

@@ -27,6 +27,7 @@ class NeighbourList {
  public:
   struct Skins {
     double near, far;  ///< gaps between surfaces, lengths; near < far
+    double apart = 0;  ///< surfaces that are no farther apart count as touching
   };
 
   NeighbourList(const Domain<D>& domain, Skins skins, Method method = Method::cells, Isa isa = best_isa());

@@ -37,8 +37,9 @@ struct PairNames {
 
 /// Pairs that may touch, with what a step asks of them.
 struct PairList : PairNames {
-  Array reach_squared;  ///< (R_i + R_j)²: the pair touches when its distance squared is less
-  Array m_eff;          ///< reduced mass; fixed grains count as infinitely heavy
+  Array
+      reach_squared;  ///< (R_i + R_j)², with what may lie between them: the pair touches when its distance squared is less
+  Array m_eff;  ///< reduced mass; fixed grains count as infinitely heavy
 
   void clear() {
     PairNames::clear();
@@ -56,9 +57,9 @@ struct PairList : PairNames {
     m_eff.insert(m_eff.end(), other.m_eff.begin(), other.m_eff.end());
   }
   template <int D>
-  void add(const Grains<D>& grains, std::size_t first, std::size_t second) {
+  void add(const Grains<D>& grains, std::size_t first, std::size_t second, double apart = 0) {
     PairNames::add(first, second);
-    const double reach = grains.radius[first] + grains.radius[second];
+    const double reach = grains.radius[first] + grains.radius[second] + apart;
     reach_squared.push_back(reach * reach);
     m_eff.push_back(1 / (grains.inverse_mass[first] + grains.inverse_mass[second]));
   }

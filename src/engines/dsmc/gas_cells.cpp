@@ -56,7 +56,7 @@ void GasCells<D>::lay(int k, const Grains<D>& grains) {
   const auto a = static_cast<std::size_t>(k);
   const auto cells_in = [&](double length) {
     const double many = length / setup_.cell;
-    if (!(many < std::numeric_limits<int>::max() / 2))
+    if (!(many < 0.5 * std::numeric_limits<int>::max()))
       throw InputError("engine.cell: " + too_many_cells(many, 0).value());
     return static_cast<int>(many);
   };

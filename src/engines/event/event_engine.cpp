@@ -185,7 +185,7 @@ void EventEngine<D>::lay_out() {
   near_.build(flights_, setup_.domain, grains_.moving, grains_.independent, now_);
   std::vector<double> times(grains_.moving);
   for (std::size_t i = 0; i < grains_.moving; ++i) look(i, i), times[i] = plan(i);
-  queue_.start(std::move(times));
+  queue_.start(times);
   next_look_ = work_.collisions + work_.moves + 16 * static_cast<std::int64_t>(grains_.moving);
 }
 

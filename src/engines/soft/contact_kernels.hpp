@@ -156,8 +156,11 @@ constexpr bool linear_spring = requires {
   Law::linear_spring;
 };
 
-/// `Choice` says which law a contact has (LawTable). Ends of contacts are weighted if `Weighted`.
-template <class Choice, bool Weighted>
+/// How steps near the ends of contacts count: see EndWeights.
+enum class EndsOfContacts { sampled, inside, mean };
+
+/// `Choice` says which law a contact has (LawTable).
+template <class Choice, EndsOfContacts ends_count>
 struct NormalKernel {
   Choice choice;
   EndWeights ends;
@@ -165,6 +168,13 @@ struct NormalKernel {
   const double *overlap, *closing, *m_eff, *r_eff;
   Part range;
   double *force, *loss, *weight;
+
+  static EndWeights::Parts parts(const EndWeights& ends, double xi, double dxi) {
+    if constexpr (ends_count == EndsOfContacts::mean)
+      return ends.mean(xi, dxi);
+    else
+      return ends.inside(xi, dxi, linear_spring<typename Choice::Law>);
+  }
 
   void operator()() const {
     const Choice law = choice;
@@ -176,11 +186,14 @@ struct NormalKernel {
     CHUTE_VECTOR_LOOP
     for (std::size_t c = begin; c < end; ++c) {
       const laws::Pair pair(m[c], R[c]);
-      if constexpr (Weighted) {
-        const double closing_now = near_ends.closing(dxi[c], law(c)(xi[c], dxi[c], pair).total, pair.m_eff);
-        const auto part = near_ends(xi[c], closing_now);
-        const double seen = linear_spring<typename Choice::Law> ? xi[c] + part.shift : xi[c];
-        const auto whole = law(c)(seen, closing_now, pair);
+      if constexpr (ends_count != EndsOfContacts::sampled) {
+        // The force that carries the velocity on is that of the old velocity.
+        const auto before = parts(near_ends, xi[c], dxi[c]);
+        const auto carrying = law(c)(before.overlap, dxi[c], pair);
+        const double closing_now =
+            near_ends.closing(dxi[c], carrying.total + (before.at_once - 1) * carrying.at_once, pair.m_eff);
+        const auto part = parts(near_ends, xi[c], closing_now);
+        const auto whole = law(c)(part.overlap, closing_now, pair);
         const double total = whole.total + (part.at_once - 1) * whole.at_once;
         // Where it would pull and must not, it does not, whatever its weight.
         const double pushes = whole.total < total ? whole.total : total;

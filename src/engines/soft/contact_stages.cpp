@@ -303,14 +303,16 @@ void ContactStages<D>::normal_forces(Part range, Contacts<D>& contacts, double d
                          contacts.stored.data());
     } else {
       const double least = laws_.first().attraction ? -std::numeric_limits<double>::infinity() : 0.0;
-      const auto run = [&]<bool weighted>() {
-        run_kernel(isa_, NormalKernel<Choice, weighted>{choice, laws_.ends(), least, xi, dxi, m, R,
-                                                        whole_vectors(range, contacts.count), force, loss,
-                                                        contacts.weight.data()});
+      const auto run = [&]<EndsOfContacts ends>() {
+        run_kernel(isa_, NormalKernel<Choice, ends>{choice, laws_.ends(), least, xi, dxi, m, R,
+                                                    whole_vectors(range, contacts.count), force, loss,
+                                                    contacts.weight.data()});
       };
-      if constexpr (acts_at_once<Law>)
-        if (laws_.ends().on()) return run.template operator()<true>();
-      run.template operator()<false>();
+      if constexpr (acts_at_once<Law>) {
+        if (apart() > 0) return run.template operator()<EndsOfContacts::mean>();
+        if (laws_.ends().on()) return run.template operator()<EndsOfContacts::inside>();
+      }
+      run.template operator()<EndsOfContacts::sampled>();
     }
   });
 }
@@ -420,7 +422,8 @@ double ContactStages<D>::elastic_energy(const Contacts<D>& contacts) const {
   laws_.normal(contacts.law.data(), [&]<class Choice>(const Choice& law) {
     if constexpr (!laws::NormalWithMemory<typename Choice::Law>)
       for (std::size_t c = 0; c < contacts.count; ++c)
-        sum += law(c).energy(contacts.overlap[c], laws::Pair(contacts.m_eff[c], contacts.r_eff[c]));
+        sum += law(c).energy(std::max(0.0, contacts.overlap[c]),
+                             laws::Pair(contacts.m_eff[c], contacts.r_eff[c]));
   });
   if (memory_.needed())
     for (std::size_t c = 0; c < contacts.count; ++c) sum += contacts.stored[c];

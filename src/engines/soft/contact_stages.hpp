@@ -66,6 +66,8 @@ class ContactStages {
   /// Energy stored in the contacts, in both directions.
   double elastic_energy(const Contacts<D>& contacts) const;
 
+  /// Pairs with a smaller gap than this count as touching (EndWeights).
+  double apart() const { return laws_.ends().apart(); }
   bool several_laws() const { return laws_.several(); }
   const ContactMemory<D>& memory() const { return memory_; }
   ContactMemory<D>& memory() { return memory_; }

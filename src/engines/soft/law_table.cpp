@@ -28,8 +28,21 @@ bool LawTable::needs_radius() const {
   return std::ranges::any_of(laws_, [](const auto& laws) { return laws::needs_radius(laws); });
 }
 
+/// Can a pair that does not touch yet, or no more, be given to these laws? What remembers begins with the contact, and Hertz's
+/// damping is no number there.
+static bool acts_before_contact(const laws::ContactLaws& laws) {
+  const bool at_once = std::visit(
+      []<class Law>(const Law&) {
+        return requires { Law::acts_at_once; };
+      },
+      laws.normal);
+  const bool remembers =
+      std::visit([]<class Law>(const Law&) { return laws::ShearWithMemory<Law>; }, laws.shear);
+  return at_once && !remembers;
+}
+
 void LawTable::know_time_step(double time_step, const EndWeights& ends) {
-  ends_ = ends;
+  ends_ = ends.apart() > 0 && !acts_before_contact(laws_.front()) ? ends.inside_only() : ends;
   for (auto& laws : laws_) laws::know_time_step(laws, time_step);
   sort_by_type();
 }

@@ -16,15 +16,29 @@
 #include "engines/kind/deep_start.hpp"
 
 namespace chute::soft {
+
+/// The smallest radius, 0 without grains.
+template <int D>
+static double smallest(const Grains<D>& grains) {
+  const auto found = std::min_element(grains.radius.begin(), grains.radius.end());
+  return found == grains.radius.end() ? 0 : *found;
+}
+
+template <int D>
+static double reach_of(const SoftSetup<D>& setup, const Grains<D>& grains) {
+  return reach_of_ends(setup, smallest(grains));
+}
+
 template <int D>
 SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
     : setup_(setup),
       grains_(std::move(grains)),
-      list_(setup.domain, setup.skins, setup.search, setup.isa),
-      stages_(setup.domain, laws_of_grains(setup), setup.isa, slip_rule(setup.scheme)),
+      stages_(setup.domain, laws_of_grains(setup, reach_of(setup, grains_)), setup.isa,
+              slip_rule(setup.scheme)),
+      list_(setup.domain, {setup.skins.near, setup.skins.far, stages_.apart()}, setup.search, setup.isa),
       integrator_(setup.scheme, setup.time_step, setup.gravity, setup.domain, setup.isa),
-      walls_(setup.surroundings(), laws_of_grains(setup), laws_of_walls(setup),
-             {setup.isa, slip_rule(setup.scheme)}),
+      walls_(setup.surroundings(), laws_of_grains(setup, stages_.apart()),
+             laws_of_walls(setup, reach_of(setup, grains_)), {setup.isa, slip_rule(setup.scheme)}),
       exchange_(setup.surroundings(), setup.time_step),
       grains_at_start_(static_cast<std::int64_t>(grains_.size())),
       touches_(grains_.moving, setup.contact_time),
@@ -47,8 +61,7 @@ SoftEngine<D>::SoftEngine(Grains<D> grains, const SoftSetup<D>& setup)
 
 template <int D>
 void SoftEngine<D>::watch_overlaps() {
-  const auto smallest = std::min_element(grains_.radius.begin(), grains_.radius.end());
-  if (smallest != grains_.radius.end()) stages_.watch_for(setup_.deepest_overlap * *smallest);
+  if (grains_.size() > 0) stages_.watch_for(setup_.deepest_overlap * smallest(grains_));
 }
 
 template <int D>
@@ -204,12 +217,13 @@ void SoftEngine<D>::check_overlaps() const {
   });
 }
 
-/// each(contacts, c) for all contacts: of grains, then with walls.
+/// each(contacts, c) for all contacts: of grains, then with walls. Pairs that touch within half a step only are none.
 template <int D>
 template <class Each>
 void SoftEngine<D>::for_contacts(const Each& each) const {
   const auto all = [&](const Contacts<D>& contacts) {
-    for (std::size_t c = 0; c < contacts.count; ++c) each(contacts, c);
+    for (std::size_t c = 0; c < contacts.count; ++c)
+      if (contacts.overlap[c] > 0) each(contacts, c);
   };
   all(contacts_);
   walls_.for_lists(all);

@@ -54,8 +54,8 @@ class SoftEngine final : public Engine {
 
   SoftSetup<D> setup_;
   Grains<D> grains_;
-  search::NeighbourList<D> list_;
   ContactStages<D> stages_;
+  search::NeighbourList<D> list_;
   Integrator<D> integrator_;
   WallContacts<D> walls_;
   Exchange<D> exchange_;

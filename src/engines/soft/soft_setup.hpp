@@ -49,11 +49,17 @@ struct SoftSetup : Surroundings<D> {
 template <int D>
 std::string why_so_deep(const SoftSetup<D>& setup);
 
-/// The laws between grains, and those of walls that have their own, which know how long a step is. Empty: as between grains.
+/// How far apart surfaces can be and still have a force in a step with weighted ends of contacts: the way of half a step of those
+/// whose impacts overlap by a twentieth of the smallest radius. 0 with other ends.
 template <int D>
-LawTable laws_of_grains(const SoftSetup<D>& setup);
+double reach_of_ends(const SoftSetup<D>& setup, double smallest_radius);
+
+/// The laws between grains, and those of walls that have their own, which know how long a step is, and how far `apart` they are
+/// asked for forces too. Empty: as between grains.
 template <int D>
-std::vector<std::optional<LawTable>> laws_of_walls(const SoftSetup<D>& setup);
+LawTable laws_of_grains(const SoftSetup<D>& setup, double apart = 0);
+template <int D>
+std::vector<std::optional<LawTable>> laws_of_walls(const SoftSetup<D>& setup, double apart = 0);
 
 /// How slips follow from velocities in the setup's scheme.
 inline SlipRule slip_rule(Scheme scheme) {

@@ -37,14 +37,15 @@ void WallContacts<D>::find(const Grains<D>& grains, double time, double deepest,
   contacts.count = 0;
   contacts.deep = 0;
   const bool several = group.stages.several_laws();
+  const double apart = group.stages.apart();
   for (std::size_t i = 0; i < grains.moving; ++i) {
     const Vec<D> place = grains.place(i);
     for (const std::size_t w : group.walls) {
       const double R = grains.radius[i];
-      if (is_far(walls_[w], place, R, time)) continue;
+      if (is_far(walls_[w], place, R + apart, time)) continue;
       const auto nearest = walls_[w].nearest(place, time, domain_);
       const double overlap = R - nearest.height;
-      if (!(overlap > 0)) continue;
+      if (!(overlap > -apart)) continue;
       contacts.reserve(contacts.count + 1);
       const std::size_t c = contacts.count++;
       contacts.i[c] = static_cast<std::int32_t>(i);

@@ -38,8 +38,8 @@ bool positive_definite(const Block<D>& block) {
 }  // namespace
 
 // It is moved from below, which the check does not see in a template.
-// NOLINTNEXTLINE(performance-unnecessary-value-param)
 template <int D>
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 Problem<D> assemble(std::span<const Entry> entries, std::vector<Vec<D>> q, std::vector<double> friction) {
   const auto m = q.size();
   const auto place = [](const Entry& e) {
