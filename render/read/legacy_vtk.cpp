@@ -117,7 +117,7 @@ class Reader {
   std::vector<double> values(std::size_t number, std::string_view type_name, std::string_view of);
   std::vector<std::string> strings(std::size_t number);
   void field(std::vector<PointArray>& into, bool of_points);
-  void cells(int version, std::string_view keyword);
+  void cells(bool has_offsets, std::string_view keyword);
   void attribute(const std::string& keyword);
   void take_cells();
   void metadata_lines();
@@ -207,9 +207,9 @@ void Reader::metadata_lines() {
   }
 }
 
-void Reader::cells(int version, std::string_view keyword) {
+void Reader::cells(bool has_offsets, std::string_view keyword) {
   const std::size_t first = count(keyword), second = count(keyword);
-  if (version < 5) {  // number of cells and of integers: each cell is its length and its points
+  if (!has_offsets) {  // number of cells and of integers: each cell is its length and its points
     const auto list = values(second, "int", keyword);
     std::size_t i = 0;
     for (std::size_t cell = 0; cell < first; ++cell) {
@@ -309,7 +309,7 @@ PointSet Reader::read() {
       has_points = true;
     } else if (keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" ||
                keyword == "TRIANGLE_STRIPS" || keyword == "CELLS") {
-      cells(static_cast<int>(version), keyword);
+      cells(version >= 5, keyword);
     } else if (keyword == "CELL_TYPES") {
       values(count(keyword), "int", keyword);
     } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
