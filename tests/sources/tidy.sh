@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tidy.sh ROOT BUILD [PATTERN]: clang-tidy, with the checks of .clang-tidy, has nothing to say of src/ and render/, or of
-# the files that match PATTERN. Everything is looked at in the groups that are compiled as one, which takes a quarter of the
-# time: nearly all of it goes into what they include.
+# the files that match PATTERN. Everything is looked at in the groups that are compiled as one: 22 CPU minutes where
+# file by file, at 11 s each, it was an hour, nearly all of it for what they include.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/tool.sh"
 clang_tidy=$(tool clang-tidy)
