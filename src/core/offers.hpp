@@ -6,7 +6,8 @@ namespace chute {
 /// What a method gives to whoever watches it.
 struct Offers {
   bool in_2d = true, in_3d = true;
-  bool contacts = false;     ///< what touches, with forces
+  bool by_contact = true;  ///< grains act on each other as [contact] says; else all they do is not to overlap
+  bool contacts = false;   ///< what touches, with forces
   bool collisions = false;   ///< what passes between hard grains, collision by collision
   bool impacts = false;      ///< the begin of each contact
   bool independent = false;  ///< grains side by side that do not feel each other

@@ -45,13 +45,19 @@ using Values = std::map<std::string, std::string>;
 /// The parameters of one run; but those along which it is only one of many.
 Values values_of(const std::filesystem::path& scene_file, const std::vector<std::string>& settings,
                  const std::set<std::string>& varied) {
-  const auto table = parse_toml(scene::to_toml(scene::read_scene(scene_file, settings)), scene_file.string());
+  const auto told = scene::read_scene(scene_file, settings);
+  const auto table = parse_toml(scene::to_toml(told), scene_file.string());
+  const auto decides = [&](std::string_view key) {
+    if (key.starts_with("contact.")) return told.engine->offers().by_contact;
+    return told.incline.gravity != 0 || !key.starts_with("incline.");
+  };
   Values values;
   const toml::table& scene = table;
   for (const auto& list :
        {std::span<const Parameter>(parameters), std::span<const Parameter>(engine_parameters)})
     for (const auto& [key, name] : list)
-      if (const auto text = text_of(scene.at_path(key)); text && !varied.count(key)) values[name] = *text;
+      if (const auto text = text_of(scene.at_path(key)); text && decides(key) && !varied.count(key))
+        values[name] = *text;
   // of a bed of many gaps the largest says all
   if (values.count("eps_max")) values.erase("eps");
   return values;

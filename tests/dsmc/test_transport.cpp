@@ -88,8 +88,8 @@ double excess_over_due(std::size_t grains, const Viscosity& fine, double cell, d
 
 }  // namespace
 
-// The error of each of these, by chance, is 0.5 % of the viscosity.
-TEST_CASE("viscosity errs by the square of the cell, as much as is known") {
+// The error of each of these, by chance, is 0.5 % of the viscosity. A quarter of a minute: with --long.
+TEST_CASE("viscosity errs by the square of the cell, as much as is known", "[.exact]") {
   constexpr std::size_t grains = 480000;
   const auto fine = viscosity(grains, 0.5, 0.1);
   // Enskog's less what it loses in waves that are not long (2π/12 for each mean free path).

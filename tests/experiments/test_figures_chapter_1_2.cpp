@@ -6,7 +6,8 @@ using namespace chute::test;
 
 namespace figures_chapter_1_2_tests {
 
-TEST_CASE("Quick figures have the same panels and series as full ones") {
+// The full ones take a quarter of a minute: with --long.
+TEST_CASE("Quick figures have the same panels and series as full ones", "[.exact]") {
   for (const auto& id : law_figures) {
     INFO(id);
     CHECK(Rows(id, true).names() == Rows(id, false).names());

@@ -33,8 +33,7 @@ def between(points, low, high):
 
 
 with tempfile.TemporaryDirectory() as out:
-    subprocess.run([chute, "figure", "fig-5-02", "fig-5-03", "fig-5-07", "fig-5-08", "--quick", "--jobs", "2", "--quiet",
-                    "-o", out], check=True)
+    subprocess.run([chute, "figure", "fig-5-02", "fig-5-03", "--quick", "--jobs", "2", "--quiet", "-o", out], check=True)
 
     gamma_max = math.pi / 6  # (4.21) for touching discs of equal size
     angles = rows(out, "fig-5-02")
@@ -49,24 +48,5 @@ with tempfile.TemporaryDirectory() as out:
     speeds = rows(out, "fig-5-03")
     mean = {panel: sum(x * y for x, (y, _) in curve(speeds, panel, "v_n").items()) for panel in "ab"}
     check(mean["b"] > mean["a"], "5.3: impacts are faster with e_n = 0.8 and the steeper plane")
-
-    profiles = rows(out, "fig-5-07")
-    # Whether the bed layer is locked shifts v_x of whole runs: the error of two runs says little, and mu = 0.25 and 0.5
-    # are told apart by the shear only.
-    smooth, some, rough = (curve(profiles, "b", "mu=" + mu) for mu in ("0", "0.25", "0.5"))
-    for slow in (some, rough):
-        check(all(smooth[h][0] > 1.25 * slow[h][0] for h in (4.5, 6.5, 8.5)), "5.7: friction slows the flow")
-    rate = [(v[8.5][0] - v[2.5][0]) / 6 for v in (smooth, some, rough)]
-    check(rate[0] > 1.3 * rate[1] and rate[1] > rate[2], "5.7: shear rates %.3f > %.3f > %.3f" % tuple(rate))
-    for series in ("mu=0", "mu=0.25", "mu=0.5"):
-        eta = curve(profiles, "a", series)
-        check(all(0.65 < eta[h][0] < 0.9069 for h in (2.5, 4.5, 6.5)), "5.7: dense flow, %s" % series)
-
-    spins = rows(out, "fig-5-08")
-    for mu in ("0.25", "0.5"):
-        omega, shear = curve(spins, "", "omega mu=" + mu), curve(spins, "", "shear mu=" + mu)
-        ratio = between(omega, 2, 9) / between(shear, 2, 9)
-        check(abs(ratio - 1) < 0.12, "5.8: spin is half the shear rate in the bulk, mu = %s: ratio %.3f" % (mu, ratio))
-        check(omega[10.5][0] > 1.5 * shear[10.5][0], "5.8: but not in the top layer, mu = %s" % mu)
 
 sys.exit(1 if failed else 0)

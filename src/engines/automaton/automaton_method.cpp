@@ -43,6 +43,7 @@ Lattice lattice_of(const World<2>& world, const engines::Setting& setting) {
 
 Offers AutomatonMethod::offers() const {
   return {.in_3d = false,
+          .by_contact = false,
           .walls = model != ModelKind::pile,
           .wall_shapes = model != ModelKind::pile,
           .avalanches = model == ModelKind::pile,

@@ -41,7 +41,10 @@ std::optional<Refusal> too_long(double move, const std::array<double, 3>& size) 
 }
 
 Offers MonteCarloMethod::offers() const {
-  return {.walls = true, .threads = order == Order::checkerboard, .clock = shakes() ? "shakes" : "sweeps"};
+  return {.by_contact = false,
+          .walls = true,
+          .threads = order == Order::checkerboard,
+          .clock = shakes() ? "shakes" : "sweeps"};
 }
 
 std::optional<Refusal> MonteCarloMethod::refusal(const engines::Setting& s) const {

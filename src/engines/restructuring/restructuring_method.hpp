@@ -51,7 +51,12 @@ class RestructuringMethod final : public Described<engines::Method, Restructurin
     a.value("step", loosening.step, positive, "longest of these moves, in mean diameters");
   }
   Offers offers() const override {
-    return {.contacts = true, .walls = true, .only_floor = true, .drum = true, .clock = "shakes"};
+    return {.by_contact = false,
+            .contacts = true,
+            .walls = true,
+            .only_floor = true,
+            .drum = true,
+            .clock = "shakes"};
   }
   std::optional<Refusal> refusal(const engines::Setting& setting) const override;
   double step(const engines::Setting&) const override { return 1; }
