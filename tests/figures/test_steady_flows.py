@@ -3,9 +3,12 @@ kinetic theories for nearly elastic grains have it? Thesis 5.3 found none. Flows
 inclination, restitution and friction: test_steady_flows.py CHUTE [FOLDER that keeps the runs], with --long, for it takes
 ten minutes of a core.
 
-It comes out for the density, and for the temperature of all flows with friction and of slow ones without. Discs without
-friction on steeper planes are hotter below though their verdict is steady: flows such as the thesis follows in its figure 5.6,
-which last for hundreds of units of time, and then run away."""
+In the plane it comes out for the density, and for the temperature of all flows with friction and of slow ones without. Discs
+without friction on steeper planes are hotter below though their verdict is steady: flows such as the thesis follows in its
+figure 5.6, which last for hundreds of units of time, and then run away. In space it does not come out: steady flows at 23 and 25
+degrees are two to three times as hot below as above, as the shear rate of Bagnold's profile falls with height, and 2 to 3 % looser
+there than in between.
+"""
 import concurrent.futures
 import csv
 import json
@@ -84,11 +87,16 @@ class SteadyFlows(unittest.TestCase):
                 continue
             steady[2 if scene == "chute-2d" else 3] += 1
             with self.subTest(flow[:5]):
-                self.assertLess(denser[0], CLEAR, "the density is highest in between")
-                if mu > 0 or angle < 16:
-                    self.assertGreater(hotter[0], -CLEAR, "the temperature falls from the bottom up")
+                if scene == "chute-2d":
+                    self.assertLess(denser[0], CLEAR, "the density is highest in between")
+                    if mu > 0 or angle < 16:
+                        self.assertGreater(hotter[0], -CLEAR, "the temperature falls from the bottom up")
+                elif angle >= 23:
+                    self.assertLess(hotter[0], -CLEAR, "the temperature falls from the bottom up")
+                    self.assertGreater(denser[0], CLEAR, "the density is highest in between")
+                    self.assertLess(denser[2] - denser[1], 0.03, "but hardly")
         self.assertGreaterEqual(steady[2], 8)
-        self.assertGreaterEqual(steady[3], 5)
+        self.assertGreaterEqual(steady[3], 4)
 
 
 if __name__ == "__main__":
