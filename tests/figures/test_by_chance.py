@@ -1,5 +1,6 @@
 """What figures of gases by chance and of automata must show, on the CSV of the quick ones: test_by_chance.py CHUTE."""
 import math
+import os
 import sys
 import unittest
 
@@ -11,7 +12,16 @@ chute = sys.argv[1]
 class ByChance(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.made = QuickFigures(chute, "fig-m-10", "fig-m-11", "fig-m-15", "fig-m-16")
+        cls.made = QuickFigures(chute, "fig-m-09", "fig-m-10", "fig-m-11", "fig-m-15", "fig-m-16")
+
+    def test_heads_tell_a_restitution_only_of_methods_that_have_one(self):
+        told = {}
+        for figure in ("fig-m-09", "fig-m-10"):  # Monte Carlo; dsmc and event, both with gravity
+            with open(os.path.join(self.made.folder.name, figure + ".csv"), encoding="utf-8") as file:
+                told[figure] = " ".join(line for line in file if line.startswith("# parameters"))
+        self.assertIn("theta=0deg", told["fig-m-09"])
+        self.assertNotIn("e_n=", told["fig-m-09"])
+        self.assertIn("e_n=", told["fig-m-10"])
 
     def test_rice_pile(self):
         curves = self.made.curves("fig-m-16")
