@@ -4,7 +4,6 @@
 #include "common/fields.hpp"
 #include "view/flat_scene.hpp"
 #include "view/furniture.hpp"
-#include "view/offscreen.hpp"
 #include "view/painter.hpp"
 
 namespace chute::view {
@@ -40,9 +39,7 @@ class FlatPainter : public Painter {
  public:
   FlatPainter(const Studio& studio, std::unique_ptr<Furniture>& furniture)
       : studio_(studio),
-        context_(studio.style.width, studio.style.height),
-        scene_(context_, studio.style.width, studio.style.height, studio.palette.ground,
-               studio.palette.ground_alpha) {
+        scene_(studio.style.width, studio.style.height, studio.palette.ground, studio.palette.ground_alpha) {
     const auto& survey = studio_.survey;
     map_.turn = Eigen::Rotation2Dd(survey.turn);
     const auto window = seen(studio_.style.camera);
@@ -100,7 +97,6 @@ class FlatPainter : public Painter {
   }
 
   Studio studio_;
-  OffscreenContext context_;
   FlatScene scene_;
   Map map_;
 

@@ -3,13 +3,12 @@
 #include <variant>
 #include <vector>
 
+#include "flat/flat_surface.hpp"
 #include "image/image.hpp"
 #include "plot/display_list.hpp"
 #include "view/color_map.hpp"
 
 namespace chute::view {
-
-class OffscreenContext;
 
 /// A disc in the picture; lengths and places in pixels, y down.
 struct Disc {
@@ -35,9 +34,8 @@ struct Bar {
 /// much of every pixel a shape covers, so nothing is sampled more than once.
 class FlatScene {
  public:
-  /// Draws on `context`, `width` x `height` pixels.
-  FlatScene(OffscreenContext& context, int width, int height, Rgb ground, double ground_alpha);
-  ~FlatScene();
+  /// `width` x `height` pixels. WorkError if they cannot be drawn on.
+  FlatScene(int width, int height, Rgb ground, double ground_alpha);
 
   void clear();
   void add(const Disc& disc);
@@ -52,8 +50,12 @@ class FlatScene {
   plot::DisplayList page() const;
 
  private:
-  struct Inside;
-  std::unique_ptr<Inside> inside_;
+  bool shows(double left, double right, double low, double high) const;
+  float height_of_next() const;
+
+  std::unique_ptr<flat::Surface> surface_;
+  flat::Corners corners_;
+  int width_, height_;
   bool remembers_ = false;
   std::vector<std::variant<Disc, Bar>> remembered_;
   plot::Rect clip_;

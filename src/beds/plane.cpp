@@ -17,17 +17,17 @@ constexpr double pi = std::numbers::pi;
 class Remembered {
  public:
   template <class Make>
-  Sheet get(const std::string& recipe, const Make& make) {
+  Plane::Arranged get(const std::string& recipe, const Make& make) {
     const std::lock_guard lock(mutex_);
-    if (const auto known = sheets_.find(recipe); known != sheets_.end()) return known->second;
+    if (const auto known = planes_.find(recipe); known != planes_.end()) return known->second;
     constexpr std::size_t most = 64;  // of some 100 kB each
-    if (sheets_.size() == most) sheets_.clear();
-    return sheets_[recipe] = make();
+    if (planes_.size() == most) planes_.clear();
+    return planes_[recipe] = make();
   }
 
  private:
   std::mutex mutex_;
-  std::map<std::string, Sheet> sheets_;
+  std::map<std::string, Plane::Arranged> planes_;
 };
 
 }  // namespace
@@ -88,23 +88,43 @@ std::optional<Refusal> Plane::misfit(const Site& site) const {
   return {};
 }
 
-Sheet Plane::sheet(const Site& site) const {
-  static Remembered remembered;
+Plane::Arranged Plane::arranged(const Site& site) const {
+  // Arranged with beads of diameter 1, so that planes that differ in their size only, as those under balls of several
+  // size ratios do, are one.
+  const double unit = has_own_lengths() ? 1 : diameter;
+  const auto copy = clone();
+  auto& plane = dynamic_cast<Plane&>(*copy);
+  plane.diameter /= unit;
+  if (size)
+    for (double& side : *plane.size) side /= unit;
   TomlWriter keys;
-  clone()->write(keys);
-  return remembered.get(std::to_string(site.seed) + typeid(*this).name() + keys.text(),
-                        [&] { return arrange(site); });
+  plane.write(keys);
+  static Remembered remembered;
+  auto found = remembered.get(std::to_string(site.seed) + typeid(*this).name() + keys.text(), [&] {
+    Arranged made{plane.arrange(site), 0};
+    constexpr std::size_t fewest = 3;  // that divide a plane; files may have fewer, which misfit() refuses
+    if (made.sheet.place.size() < fewest) return made;
+    for (const auto& v : tessellate(made.sheet).vertices)
+      made.widest_hole = std::max(made.widest_hole, v.distance);
+    return made;
+  });
+  found.widest_hole *= unit;
+  auto& sheet = found.sheet;
+  sheet.length = length(), sheet.width = width();
+  for (auto& place : sheet.place) place = sheet.wrapped({unit * place[0], unit * place[1]});
+  return found;
 }
 
+Sheet Plane::sheet(const Site& site) const { return arranged(site).sheet; }
+
 Ground Plane::lay(const Site& site) const {
-  const auto sheet = this->sheet(site);
+  const auto [sheet, widest_hole] = arranged(site);
   Ground ground;
   for (const auto& p : sheet.place) ground.beads.push_back({p[0], p[1], 0, radius()});
   ground.length = sheet.length;
   ground.width = sheet.width;
   ground.spacing = std::sqrt(sheet.length * sheet.width / static_cast<double>(sheet.place.size()));
-  for (const auto& v : tessellate(sheet).vertices)
-    ground.widest_spacing = std::max(ground.widest_spacing, 2 * v.distance);
+  ground.widest_spacing = 2 * widest_hole;
   return ground;
 }
 

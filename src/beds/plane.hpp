@@ -31,6 +31,12 @@ class Plane : public Bed {
   /// The places of the beads. Planes that were made lately are remembered: a scene asks for its bed several times.
   Sheet sheet(const Site& site) const;
 
+  /// What is remembered of a plane.
+  struct Arranged {
+    Sheet sheet;
+    double widest_hole;  ///< largest distance of a Voronoi vertex from its beads
+  };
+
  protected:
   template <class Archive>
   void describe_plane(Archive& a) {
@@ -44,8 +50,13 @@ class Plane : public Bed {
   double width() const { return size ? (*size)[1] : 43.5 * diameter; }
   std::size_t beads() const { return static_cast<std::size_t>(count); }
   virtual Sheet arrange(const Site& site) const = 0;
+  /// Whether what the recipe names has lengths of its own, that do not follow the beads'.
+  virtual bool has_own_lengths() const { return false; }
   /// No point may be farther than this from every bead, in r: another bead would fit there.
   static constexpr double widest_hole = 2;
+
+ private:
+  Arranged arranged(const Site& site) const;
 };
 
 }  // namespace chute::beds

@@ -94,6 +94,7 @@ class PlaneFromFile final : public Described<Plane, PlaneFromFile> {
 
  protected:
   Sheet arrange(const Site& site) const override;
+  bool has_own_lengths() const override { return true; }
 };
 
 }  // namespace chute::beds

@@ -2,10 +2,17 @@
 
 namespace chute {
 
-std::filesystem::path share_folder() {
+namespace {
+
+std::filesystem::path prefix() {
   // The kernel's link leads to the file itself even where the program was called by another link to it.
-  const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  return program.parent_path().parent_path() / "share" / "chute";
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
 }
+
+}  // namespace
+
+std::filesystem::path share_folder() { return prefix() / "share" / "chute"; }
+
+std::filesystem::path module_folder() { return prefix() / "lib" / "chute"; }
 
 }  // namespace chute

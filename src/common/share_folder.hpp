@@ -8,4 +8,7 @@ namespace chute {
 /// from and may be moved together with its share folder. A build folder has links at that place.
 std::filesystem::path share_folder();
 
+/// Folder of the libraries that the program loads when it needs them: lib/chute beside the folder bin.
+std::filesystem::path module_folder();
+
 }  // namespace chute

@@ -73,12 +73,13 @@ class Velocities(unittest.TestCase):
         self.assertLess(abs(mean(c["", "v_x e_n=0.8"]) - 0.078), 0.0078)
 
     def test_4_25_slow_along_goes_with_fast_across(self):
-        for e in ("0.4", "0.8"):
+        # The full figure's ratios are 2.7 and 1.5; the quick one has a tenth of the time.
+        for e, least in (("0.4", 2), ("0.8", 1.15)):
             dots = sorted(curves("fig-4-25")["", f"e_n={e}"])
             tenth = len(dots) // 10
             slow = statistics.fmean(abs(y) for _, y, _ in dots[:tenth])
             usual = statistics.fmean(abs(y) for _, y, _ in dots[4 * tenth:6 * tenth])
-            self.assertGreater(slow, 1.5 * usual)
+            self.assertGreater(slow, least * usual)
 
 
 class Impacts(unittest.TestCase):

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "engines/soft/bounce.hpp"
 #include "two_grains.hpp"
 
 namespace collision_tests {
@@ -122,6 +123,26 @@ TEST_CASE("restitution is wrong in second order of the step, with sampled ends i
   CHECK(sampled_fine > 0.4 * sampled);
   CHECK(rough < sampled);  // half as many steps are as good
   CHECK(usual < 0.25 * sampled);
+}
+
+// Sixteen moments of a step, of which the engine is asked, against many by hand; weighted ends are asked for with t_n.
+TEST_CASE("what `check` tells of bounces is what they do") {
+  const auto scheme = GENERATE(soft::Scheme::gear5, soft::Scheme::verlet);
+  const auto ends = GENERATE(soft::ContactEnds::sampled, soft::ContactEnds::weighted);
+  const double t_n = acetate.contact_time(), dt = t_n / GENERATE(20.3, 50.3);
+  HeadOn impact{acetate_law, dt, scheme};
+  impact.ends = ends, impact.contact_time = t_n;
+  const auto all = impact.at_phases(200);
+  const double worst = worst_restitution(all, acetate.restitution());
+  const laws::Pair pair{Acetate::mass / 2, Acetate::radius / 2};
+  const auto law = laws::normal_impact(acetate_law, 1, pair);
+  const auto told = soft::bounce_error(acetate_law, pair, 1, law, {scheme, ends, dt});
+  REQUIRE(told);
+  INFO(told->worst << " told, " << worst << " found; mean " << told->mean);
+  CHECK(told->worst < 1.01 * worst);
+  CHECK(told->worst > 0.8 * worst);
+  CHECK(std::abs(told->mean - (mean_restitution(all) - acetate.restitution())) < 0.1 * worst);
+  CHECK_FALSE(soft::bounce_error(acetate_law, pair, 1, law, {scheme, ends, t_n / 2000}));
 }
 
 /// A ball that lies on a bead is knocked up by another, in the plane y = 0 of both: how fast it flies.

@@ -10,6 +10,7 @@
 
 #include "engines/kind/memory.hpp"
 #include "engines/kind/soft_laws.hpp"
+#include "engines/soft/bounce.hpp"
 #include "engines/soft/clump_engine.hpp"
 
 namespace chute::soft {
@@ -72,6 +73,16 @@ std::optional<double> slip_decay(const engines::Setting& s, double dt) {
   return {};
 }
 
+/// Of two mean grains. Where a law does not name a speed any is right at which they stay nearly round.
+std::optional<BounceError> error_of_bounces(const engines::Setting& s, const Stepping& stepping) {
+  const auto pair = s.reference();
+  const double t_n = s.contact.impact(pair).contact_time;
+  constexpr double shallow = 1e-3;  // of a radius, in half a contact time
+  const double speed = s.contact.at_velocity().value_or(shallow * 2 * pair.r_eff / t_n);
+  const auto contact = s.by_pair() ? s.contact.laws_of_pair(pair) : s.contact.laws(pair);
+  return bounce_error(contact, pair, speed, laws::normal_impact(contact, speed, pair), stepping);
+}
+
 }  // namespace
 
 Offers SoftMethod::offers() const {
@@ -110,6 +121,13 @@ std::vector<Fact> SoftMethod::facts(const engines::Setting& s) const {
                     "steps in the contact of " + least.who + ", which sets dt"});
   const auto rest = laws::step_facts(s.contact, s.si, s.pairs.front(), dt);
   list.insert(list.end(), rest.begin(), rest.end());
+  if (const auto error = error_of_bounces(s, {integrator, contact_ends, dt}))
+    list.push_back(
+        {"e_n error", error->worst, "",
+         fmt::format(
+             "most by which a bounce of that pair misses e_n, by the moment in a step at which it begins "
+             "(mean {:+.1g})",
+             error->mean)});
   if (const auto decay = slip_decay(s, dt))
     list.push_back({"residual", 100 * expected_residual(*decay), "%",
                     "of gravity's work that the energy account is off by in dense flows, about"});
