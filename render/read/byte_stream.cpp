@@ -199,6 +199,8 @@ std::uint64_t Lines::skip(std::uint64_t count) {
 std::string read_unpacked(const fs::path& path) {
   ByteStream stream(path);
   std::string bytes;
+  std::error_code error;
+  if (const auto size = fs::file_size(path, error); !error && !stream.is_packed()) bytes.reserve(size);
   for (auto some = stream.next(); !some.empty(); some = stream.next()) bytes += some;
   bytes.shrink_to_fit();
   return bytes;

@@ -241,7 +241,11 @@ XmlHead xml_head(std::string_view text) {
       if (std::string_view(attributes[0]) == "type") into->type = trimmed(attributes[1]);
     XML_StopParser(of, XML_FALSE);
   });
-  XML_Parse(parser.get(), text.data(), static_cast<int>(std::min<std::size_t>(text.size(), 1U << 30U)), 0);
+  constexpr std::size_t part = 4096;  // the parser keeps a copy of what it gets, and the head is short
+  for (std::size_t at = 0; at < text.size(); at += part) {
+    const auto some = text.substr(at, part);
+    if (XML_Parse(parser.get(), some.data(), static_cast<int>(some.size()), 0) != XML_STATUS_OK) break;
+  }
   return head;
 }
 

@@ -149,15 +149,26 @@ void write_page(const plot::DisplayList& page, const RenderJob& job, const fs::p
                                  : plot::draw_svg(list, path, metadata);
 }
 
-/// Draws single frames of a run; one per process.
+/// The only frame of a job, for which reading takes longer than drawing: it is read once, for the survey and the picture.
+std::optional<ReadFrame> only_frame(const RenderJob& job, const std::vector<read::FrameFile>& frames) {
+  if (frames.size() != 1 || job.style.chains) return {};
+  auto wanted = surveyed_arrays(job.style);
+  for (auto& name : wanted_arrays(job.style, false)) wanted.push_back(std::move(name));
+  ReadFrame only{read::read_files(frames[0]), {}};
+  only.frame = read::parse_frame(only.files, job.meanings, wanted);
+  return only;
+}
+
+/// Draws single frames of a run; one per process. `only` is the frame of a job that has but one, if it was read already.
 class FrameDrawer {
  public:
   FrameDrawer(const RenderJob& job, const std::vector<read::FrameFile>& frames, const Survey& survey,
-              const Beside& beside)
+              const Beside& beside, const ReadFrame* only)
       : job_(job),
         frames_(frames),
         survey_(survey),
         beside_(beside),
+        only_(only),
         wanted_(wanted_arrays(job.style, job.speed > 0)) {
     Hash common;
     add_part(common, beside.hash);
@@ -177,7 +188,9 @@ class FrameDrawer {
     const auto& file = frames_[number];
     const std::size_t oldest = number - std::min(number, static_cast<std::size_t>(job_.style.trail));
     for (std::size_t i = oldest; i < number; ++i) load(i);
-    auto files = read::read_files(file);
+    std::vector<read::FileBytes> from_disk;
+    if (!only_) from_disk = read::read_files(file);
+    const auto& files = only_ ? only_->files : from_disk;
     const bool has_network = job_.style.chains && !file.contacts.empty();
     std::vector<read::FileBytes> network;
     if (has_network) network = read::network_bytes(file);
@@ -203,14 +216,17 @@ class FrameDrawer {
     }
 
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(job_.style, survey_);
-    auto frame = read::parse_frame(std::move(files), job_.meanings, wanted_);
+    read::GrainFrame parsed;
+    if (!only_) parsed = read::parse_frame(std::move(from_disk), job_.meanings, wanted_);
+    const auto& frame = only_ ? only_->frame : parsed;
     double time = survey_.times[number];
     std::vector<read::ForceLink> links;
     if (has_network) links = read::parse_network(std::move(network), job_.meanings, &frame);
     if (moment.part > 0) {
       const auto& next = frames_[number + 1];
-      const auto before = frame, after = read::parse_frame(read::read_files(next), job_.meanings, wanted_);
-      frame = between(before, after, moment.part);
+      const auto before = std::move(parsed),
+                 after = read::parse_frame(read::read_files(next), job_.meanings, wanted_);
+      parsed = between(before, after, moment.part);
       Network later{after, {}};
       if (job_.style.chains && !next.contacts.empty())
         later.links = read::parse_network(read::network_bytes(next), job_.meanings, &after);
@@ -248,6 +264,7 @@ class FrameDrawer {
   const std::vector<read::FrameFile>& frames_;
   const Survey& survey_;
   const Beside& beside_;
+  const ReadFrame* only_;
   std::vector<std::string> wanted_;
   std::string common_;  ///< hash of what all frames have in common
   std::unique_ptr<FrameRenderer> renderer_;
@@ -351,8 +368,10 @@ RenderReport render_run(const RenderJob& asked) {
   TimeSeries series;
   if (!job.plot.empty())
     series = read_time_series(job.series.empty() ? job.source / "series.csv" : job.series, job.plot);
-  Survey found = survey(frames, job.style, job.meanings, job.jobs,
-                        [&](std::size_t done) { tell("reading", done, frames.size()); });
+  const auto only = only_frame(job, frames);
+  const auto is_read = [&](std::size_t done) { tell("reading", done, frames.size()); };
+  Survey found = only ? survey(*only, frames[0].time, job.style)
+                      : survey(frames, job.style, job.meanings, job.jobs, is_read);
   if (!job.style.camera_keys.empty() && !found.has_times)
     throw InputError(job.source.string() + ": the frames have no times, which --camera-at needs");
   if (job.speed > 0 && !found.has_times)
@@ -397,7 +416,7 @@ RenderReport render_run(const RenderJob& asked) {
     draw_all(
         which.size(), job.jobs, style.width, style.height, wanted,
         [&]() -> Draw {
-          auto drawer = std::make_shared<FrameDrawer>(job, frames, found, beside);
+          auto drawer = std::make_shared<FrameDrawer>(job, frames, found, beside, only ? &*only : nullptr);
           return [drawer, &which](std::size_t i, bool pixels, image::Image& into) {
             return (*drawer)(which[i], pixels, into);
           };

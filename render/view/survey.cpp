@@ -318,10 +318,21 @@ std::string Survey::describe() const {
                   : "");
 }
 
+std::vector<std::string> surveyed_arrays(const FrameStyle& style) {
+  std::vector<std::string> names{color_array(style.color), std::string(fields::velocity.name)};
+  if (style.camera.follow || style.chains) names.emplace_back(fields::id.name);
+  return names;
+}
+
+Survey survey(const ReadFrame& frame, std::optional<double> time, const FrameStyle& style) {
+  Surveyor surveyor(style);
+  surveyor.see(frame.frame, time);
+  return surveyor.finish();
+}
+
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
               const read::Meanings& meanings, int jobs, const std::function<void(std::size_t)>& tell) {
-  std::vector<std::string> wanted{color_array(style.color), std::string(fields::velocity.name)};
-  if (style.camera.follow || style.chains) wanted.emplace_back(fields::id.name);
+  const auto wanted = surveyed_arrays(style);
   struct Seen {
     read::GrainFrame frame;
     std::vector<read::ForceLink> links;

@@ -65,11 +65,23 @@ double beyond_domain(const Eigen::AlignedBox3d& domain, double x, double reach);
 /// By how much copies are shifted along x: whole periods to both sides, as far as they are drawn.
 std::vector<double> copy_shifts(const FrameStyle& style, double period);
 
+/// A frame with the files that it was read from.
+struct ReadFrame {
+  std::vector<read::FileBytes> files;
+  read::GrainFrame frame;
+};
+
 /// Reads every frame once, `jobs` at a time. `tell` hears how many are done. InputError as read_frame; also if
 /// the field is missing.
 Survey survey(const std::vector<read::FrameFile>& frames, const FrameStyle& style,
               const read::Meanings& meanings = {}, int jobs = 1,
               const std::function<void(std::size_t)>& tell = {});
+
+/// The same of a frame that was read, with the arrays that a survey looks at, and happens at `time`.
+Survey survey(const ReadFrame& frame, std::optional<double> time, const FrameStyle& style);
+
+/// The arrays that a survey looks at.
+std::vector<std::string> surveyed_arrays(const FrameStyle& style);
 
 /// Collects frames that are already in memory; what survey() is made of.
 class Surveyor {

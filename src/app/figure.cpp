@@ -1,6 +1,7 @@
 #include "app/figure.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +147,25 @@ const Computation& find_computation(const std::string& name, const fs::path& rec
   const auto hint = nearest(name, known);
   throw InputError(fmt::format("{}: data.compute: \"{}\" is not known{}", recipe.string(), name,
                                hint.empty() ? "" : ", did you mean \"" + hint + "\"?"));
+}
+
+/// The recipe with these settings for all its scenes, on top of its own. They stand in the figure's table.
+Recipe with_settings(Recipe recipe, const std::vector<std::string>& set, const fs::path& file) {
+  if (set.empty()) return recipe;
+  bool any = false;
+  for (auto& data : recipe.data) {
+    if (!data.scene) continue;
+    any = true;
+    for (auto& curve : data.curves)
+      for (auto* settings : {&curve.set, &curve.quick})
+        settings->insert(settings->end(), set.begin(), set.end());
+    for (auto& curve : data.sweeps) curve.set.insert(curve.set.end(), set.begin(), set.end());
+    data.notes.push_back(fmt::format("not as the recipe has it: {}", fmt::join(set, " ")));
+  }
+  if (!any)
+    throw InputError(
+        fmt::format("{}: no scene is simulated, of which --set could change a key", file.string()));
+  return recipe;
 }
 
 /// The rows of one source of a figure.
@@ -324,7 +344,7 @@ void write_table(const plot::TableSheet& sheet, const plot::Look& look, const fs
 std::vector<std::string> make_figure(const fs::path& file, const fs::path& directory,
                                      const figures::FigureContext& context,
                                      const std::function<bool(double)>& progress) {
-  const Recipe recipe = read_recipe(file);
+  const Recipe recipe = with_settings(read_recipe(file), context.set, file);
   const auto table = make_table(recipe, file, directory, context, progress);
   const auto beside = [&](const char* extension) { return directory / (file.stem().string() + extension); };
   // A table of the user's own may stand where the figure's would go: it stays as it is.
@@ -366,7 +386,7 @@ std::vector<std::string> make_figure(const fs::path& file, const fs::path& direc
 
 std::string check_figure(const fs::path& file, const fs::path& directory,
                          const figures::FigureContext& context) {
-  const Recipe recipe = read_recipe(file);
+  const Recipe recipe = with_settings(read_recipe(file), context.set, file);
   figures::Work work;
   bool all_there = true;
   for (const auto& data : recipe.data) {

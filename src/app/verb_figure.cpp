@@ -7,6 +7,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
+#include "app/settings.hpp"
 #include "app/verbs.hpp"
 #include "common/error.hpp"
 
@@ -18,6 +19,7 @@ struct FigureArguments {
   std::string directory = "out/figures";
   bool quick = false, list = false, keys = false, check = false, quiet = false, referee = false;
   int jobs = 1;
+  std::vector<std::string> settings;
 };
 
 void run(const FigureArguments& arguments) {
@@ -35,9 +37,11 @@ void run(const FigureArguments& arguments) {
     const auto more = find_recipes(name);
     recipes.insert(recipes.end(), more.begin(), more.end());
   }
+  figures::FigureContext context;
+  context.quick = arguments.quick;
+  context.jobs = arguments.jobs;
+  context.set = arguments.settings;
   if (arguments.check) {
-    figures::FigureContext context;
-    context.quick = arguments.quick;
     for (const auto& recipe : recipes)
       fmt::print("{}: {}\n", recipe.string(), check_figure(recipe, arguments.directory, context));
     return;
@@ -47,9 +51,6 @@ void run(const FigureArguments& arguments) {
   for (const auto& recipe : recipes) {
     const auto id = recipe.stem().string();
     Progress progress(id, arguments.quiet);
-    figures::FigureContext context;
-    context.quick = arguments.quick;
-    context.jobs = arguments.jobs;
     const auto findings = make_figure(recipe, arguments.directory, context, [&](double part) {
       progress.show(part);
       return !interrupted();
@@ -78,6 +79,9 @@ void add_figure(CLI::App& app) {
   verb->add_flag("--keys", a->keys, "print every key that a recipe can have, with what it means");
   verb->add_flag("--check", a->check,
                  "say whether the recipes are right and what they would take; write nothing");
+  add_settings(
+      *verb, "--set", "KEY=VALUE", a->settings,
+      "change a key of every scene that is simulated, on top of what the recipe sets: half the step, another friction");
   verb->add_option("--jobs", a->jobs, "simulations side by side; results do not depend on it")
       ->check(CLI::Range(1, 1024));
   verb->add_flag(

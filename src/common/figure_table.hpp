@@ -23,8 +23,9 @@ struct FigureTable {
 };
 
 struct FigureContext {
-  bool quick = false;  ///< a cheaper computation: shorter, fewer points
-  int jobs = 1;        ///< how many may run side by side
+  bool quick = false;              ///< a cheaper computation: shorter, fewer points
+  int jobs = 1;                    ///< how many may run side by side
+  std::vector<std::string> set{};  ///< key=value for every scene, on top of all that recipes set
 };
 
 }  // namespace chute::figures

@@ -3,6 +3,7 @@ combination of format that the writers know, with arrays of every type beside th
 same. Exit status 77 without VTK's Python package."""
 import itertools
 import json
+import math
 import os
 import random
 import shutil
@@ -377,6 +378,54 @@ class Written(unittest.TestCase):
                 refused += 1
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertGreater(refused, 5)
+
+class Cells(Written):
+    def test_fields_of_cells_are_sums_over_their_grains(self):
+        """Grains of several masses and speeds in three cells of 2 x 3 x 4, against sums by hand."""
+        some, side, count = random.Random(5), (2.0, 3.0, 4.0), 40
+        places = [[side[k] * ((i % 3 if k == 0 else 0) + some.uniform(0.1, 0.9)) for k in range(3)] for i in range(count)]
+        masses = [some.uniform(1, 3) for _ in range(count)]
+        speeds = [[some.gauss(k + i % 3, 1 + k) for k in range(3)] for i in range(count)]
+        spins = [[some.gauss(0, 1) for _ in range(3)] for _ in range(count)]
+        radii = [some.uniform(0.05, 0.1) for _ in range(count)]
+        frame, at = vtk.vtkPolyData(), vtk.vtkPoints()
+        at.SetDataTypeToDouble()
+        for place in places:
+            at.InsertNextPoint(place)
+        frame.SetPoints(at)
+        for name, values, components in (("radius", radii, 1), ("mass", masses, 1), ("velocity", sum(speeds, []), 3), ("spin", sum(spins, []), 3)):
+            frame.GetPointData().AddArray(array("Double", name, values, components))
+        frame.GetFieldData().AddArray(array("Double", "TimeValue", [1.5]))
+        writer = vtk.vtkXMLPolyDataWriter()
+        writer.SetInputData(frame)
+        writer.SetFileName(os.path.join(self.folder, "grains.vtp"))
+        writer.Write()
+        done = subprocess.run([chute, "measure", "grains.vtp", "-o", "out", "--only", "cells", "--set", "cells.width_x=2", "--set",
+                               "cells.width=12", "--spin", "spin", "--quiet"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        reader = vtk.vtkXMLImageDataReader()
+        reader.SetFileName(os.path.join(self.folder, "out", "cells", "000000.vti"))
+        reader.Update()
+        cells = reader.GetOutput()
+        fields, volume = cells.GetCellData(), 2 * 12 * 12
+        self.assertEqual(cells.GetNumberOfCells(), 3)
+        for c in range(3):
+            there = range(c, count, 3)
+            mass = sum(masses[i] for i in there)
+            mean = [sum(masses[i] * speeds[i][k] for i in there) / mass for k in range(3)]
+
+            def excess(k, l):
+                return sum(masses[i] * (speeds[i][k] - mean[k]) * (speeds[i][l] - mean[l]) for i in there)
+            expected = {"number": [len(there)], "density": [mass / volume], "velocity": mean,
+                        "packing_fraction": [sum(4 / 3 * math.pi * radii[i] ** 3 for i in there) / volume],
+                        "temperature": [sum(excess(k, k) for k in range(3)) / (3 * len(there))],
+                        "temperature_rotation": [sum(0.4 * masses[i] * radii[i] ** 2 * w * w for i in there for w in spins[i]) / (3 * len(there))],
+                        "kinetic_stress": [excess(k, l) / volume for k, l in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))]}
+            for name, values in expected.items():
+                found = fields.GetArray(name).GetTuple(c)
+                self.assertEqual(len(found), len(values), name)
+                for a, b in zip(found, values):
+                    self.assertAlmostEqual(a, b, delta=1e-9 * (1 + abs(b)), msg=name)
 
 
 if __name__ == "__main__":

@@ -293,6 +293,25 @@ class Recipes(InAFolder):
             self.assertIn("\n# hollow: one\n", lines)
             self.assertIn("\n# one: no steady state was found", lines)
 
+    def test_a_key_of_all_scenes_is_set_on_top(self):
+        recipe = ('title = "x"\n[data]\nscene = "%s"\nset = ["grains.count=20", "bed.count=10", "run.duration=1", "output.series={every=0.25}"]\n'
+                  'x = "t"\ny = "v"\n[[data.curve]]\nseries = "one"\nset = ["incline.angle=\'%d deg\'"]\nextract = "series"\n'
+                  'column = "v_x"\n')
+        scene, tables = os.path.join(sources, "scenes", "demo.toml"), {}
+        for name, angle, words in (("own", 20, ()), ("other", 24, ()), ("on top", 20, ("--set", "incline.angle='24 deg'"))):
+            said = self.figure(recipe % (scene, angle), *words)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            with open(os.path.join(self.folder, "out", "r.csv"), encoding="utf-8") as file:
+                tables[name] = file.read()
+        rows = {name: [line for line in text.splitlines() if line[0] != "#"] for name, text in tables.items()}
+        self.assertGreater(len(rows["own"]), 4)
+        self.assertEqual(rows["on top"], rows["other"])
+        self.assertNotEqual(rows["on top"], rows["own"])
+        self.assertIn("\n# not as the recipe has it: incline.angle='24 deg'\n", tables["on top"])
+        said = self.figure('title = "x"\n[data]\nexpression = "x"\nseries = "a"\nrange = [0, 3]\n', "--set", "seed=2")
+        self.assertEqual((said.returncode, said.stderr.count("\n")), (2, 1))
+        self.assertIn("r.toml: no scene is simulated, of which --set could change a key", said.stderr)
+
     def test_numbers_of_options_say_what_they_must_be(self):
         for words, says in ((("render", ".", "--speed", "0", "--movie", "a.gif"), "0 is not allowed, must be a number > 0"),
                             (("compare", "a.csv", "b.csv", "--rtol", "-1"), "-1 is not allowed, must be a number >= 0"),
