@@ -33,6 +33,33 @@ TEST_CASE("diffusion of a random walk about a drift is that of its steps") {
   }
 }
 
+// A velocity that is forgotten in τ: <x²>/2t = D (1 − (1 − exp(−t/τ)) τ/t), which comes to 3/4 of D at 3.9 τ.
+TEST_CASE("a walk that goes straight for a while is diffusive from four of these times on") {
+  constexpr double dt = 0.01, tau = 0.1, duration = 400, D = 1;
+  constexpr int grains = 20;
+  Diffusion diffusion(dt, 2, {0, duration, 10});
+  for (std::size_t i = 0; i < grains; ++i) {
+    Random random(1, Purpose::engine, i);
+    std::array<double, 2> place{}, v{};
+    const double kept = std::exp(-dt / tau), kick = std::sqrt(D / tau * (1 - kept * kept));
+    for (double& speed : v) speed = std::sqrt(D / tau) * random.normal();
+    for (int k = 0; k * dt <= duration; ++k) {
+      diffusion.add(i, k * dt, place);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double before = v[c];
+        v[c] = kept * v[c] + kick * random.normal();
+        place[c] += (before + v[c]) / 2 * dt;
+      }
+    }
+  }
+  const auto result = diffusion.result();
+  for (const std::size_t c : {0, 1}) {
+    CHECK(result.D[c].mean == Approx(D).margin(4 * *result.D[c].error));
+    CHECK(result.diffusive_from[c] > 3 * tau);
+    CHECK(result.diffusive_from[c] < 5 * tau);
+  }
+}
+
 TEST_CASE("a grain that stays at its bead has stopped, and what it did shortly before does not count") {
   constexpr double spacing = 1e-3, gravity = 9.81, dt = 0.02, speed = 0.05, stops = 4;
   Standstill rest(spacing, gravity);
