@@ -54,6 +54,34 @@ history = { every = 1, bin = 1, samples = 2 }
 discharge = { every = 0.5, below = 0.3 }
 """
 
+MIXTURE = """
+title = "Discs of two materials run down a line"
+units = "reduced"
+seed = 2
+[incline]
+angle = "25 deg"
+[bed]
+kind = "row"
+count = 10
+[[material]]
+name = "light"
+share = 0.6
+[[material]]
+name = "heavy"
+share = 0.4
+density = 4
+[grains]
+count = 40
+diameter = { mean = 1.0, std = 0.05 }
+start = { lattice = "square", spacing = 1.25, velocity = 2.0, spread = 1.0 }
+""" + LAWS % "1e4" + """[run]
+duration = 4
+[output]
+frames = { every = 0.5 }
+segregation = { every = 0.5, from = 1, bin = 1.2 }
+heights = { every = 0.5, from = 1 }
+"""
+
 SHEAR = """
 title = "Discs pressed between two heights"
 units = "reduced"
@@ -186,6 +214,38 @@ class FlowOutputs(unittest.TestCase):
             subprocess.run([chute, "run", at, "--resume", "--quiet", "--set", "run.duration=4"], check=True)
             for name in ("history.csv", "discharge.csv"):
                 self.assertEqual(table(os.path.join(at, name)), table(os.path.join(self.at, name)), name)
+
+    def test_materials_by_height(self):
+        with tempfile.TemporaryDirectory() as folder:
+            at = run(folder, MIXTURE)
+            looks = frames(folder, at)
+            risen, layers, heights = (table(os.path.join(at, name)) for name in ("segregation.csv", "species.csv", "heights.csv"))
+        self.assertEqual(len(risen), len(looks))
+        for row, grains in zip(risen, looks):
+            for k, name in enumerate(("light", "heavy")):
+                y = [float(g["y"]) for g in grains if float(g["material"]) == k]
+                self.near(row["height_" + name], sum(y) / len(y), "height")
+        looks = looks[2:]  # from t = 1
+        for row in layers:
+            low = float(row["h"]) - 0.6
+            for k, name in enumerate(("light", "heavy")):
+                inside = [g for grains in looks for g in grains if float(g["material"]) == k and low <= float(g["y"]) < low + 1.2]
+                self.near(row["grains_" + name], len(inside) / len(looks), "grains")
+                self.near(row["eta_" + name], sum(math.pi * float(g["radius"]) ** 2 for g in inside) / (len(looks) * 10 * 1.2), "eta")
+                if not inside:
+                    continue
+                T = 0
+                for axis in "xy":
+                    v = [float(g["velocity_" + axis]) for g in inside]
+                    mean = sum(v) / len(v)
+                    self.near(row["v_%s_%s" % (axis, name)], mean, "v_" + axis)
+                    T += sum((u - mean) ** 2 for u in v) / len(v) / 2
+                self.near(row["temperature_" + name], T, "temperature")
+        self.assertEqual(len(heights), 40)
+        for row in heights:
+            y = [float(g["y"]) for grains in looks for g in grains if g["id"] == row["grain"]]
+            self.assertEqual(len(y), len(looks))
+            self.near(row["height"], sum(y) / len(y), "height")
 
     def test_pressed_grains_are_dense_and_apart(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,0 +1,151 @@
+"""What `chute measure` tells of frames, against sums by hand: test_measured.py CHUTE. Spheres of several sizes and masses at
+random places of a box that repeats in all directions; every number has its definition written out here."""
+import collections
+import math
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+chute = os.path.abspath(sys.argv[1])
+SIDE, EVERY, COUNT, FRAMES = 6.0, 0.5, 120, 5
+
+
+def frames():
+    """Of each grain place, radius, velocity, mass."""
+    some = random.Random(3)
+    return [[([some.uniform(0, SIDE) for _ in range(3)], 0.2 + 0.05 * (i % 3), [some.gauss(1 + f / 4, 0.5), some.gauss(0, 0.7), some.gauss(0, 0.2)],
+              1 + 0.5 * (i % 4)) for i in range(COUNT)] for f in range(FRAMES)]
+
+
+def table(path):
+    """Columns by their names, empty values as None."""
+    with open(path, encoding="utf-8") as file:
+        lines = [line.rstrip("\n").split(",") for line in file if line[0] != "#"]
+    return [dict(zip(lines[0], (float(x) if x and x[0] in "-.0123456789" else x or None for x in line))) for line in lines[1:]]
+
+
+class Measured(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.frames = frames()
+        with open(os.path.join(cls.folder, "g.xyz"), "w", encoding="utf-8") as file:
+            for f, grains in enumerate(cls.frames):
+                file.write('%d\nLattice="%g 0 0 0 %g 0 0 0 %g" Properties=species:S:1:pos:R:3:radius:R:1:vel:R:3:mass:R:1 pbc="T T T" '
+                           "Time=%g\n" % (COUNT, SIDE, SIDE, SIDE, EVERY * f))
+                for place, radius, velocity, mass in grains:
+                    file.write("A %s\n" % " ".join("%.17g" % x for x in (*place, radius, *velocity, mass)))
+        done = subprocess.run([chute, "measure", "g.xyz", "-o", "out", "--only", "pairs", "velocities", "moments", "series", "profiles",
+                               "--set", "pairs.bin=0.05", "--set", "pairs.reach=3", "--set", "velocities.bin=0.25", "--set", "profiles.bin=1.5",
+                               "--quiet"], cwd=cls.folder, capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(done.stderr)
+
+    def table(self, name):
+        return table(os.path.join(self.folder, "out", name))
+
+    def near(self, found, expected, what=""):
+        self.assertAlmostEqual(found, expected, delta=1e-9 * (1 + abs(expected)), msg=what)
+
+    def test_series(self):
+        """x counts on through the periods: from frame to frame grains go the shorter way."""
+        x, before = 0, None
+        for row, grains in zip(self.table("series.csv"), self.frames):
+            mean = [sum(v[k] for _, _, v, _ in grains) / COUNT for k in range(3)]
+            for k, name in enumerate("xyz"):
+                self.near(row["v_" + name], mean[k])
+            self.near(row["translation"], sum(0.5 * m * sum(u * u for u in v) for _, _, v, m in grains))
+            if before is None:
+                x = sum(place[0] for place, _, _, _ in grains) / COUNT
+            else:
+                ways = [now[0][0] - then[0][0] for now, then in zip(grains, before)]
+                x += sum(way - SIDE * round(way / SIDE) for way in ways) / COUNT
+            self.near(row["x"], x)
+            before = grains
+
+    def test_moments(self):
+        """m c² about the mean velocity over D; a_2 = <(m c²)²> D / ((D + 2) <m c²>²) − 1."""
+        rows = self.table("moments.csv")
+        self.assertEqual(len(rows), FRAMES)
+        for row, grains in zip(rows, self.frames):
+            mean = [sum(v[k] for _, _, v, _ in grains) / COUNT for k in range(3)]
+            squares = [m * sum((v[k] - mean[k]) ** 2 for k in range(3)) for _, _, v, m in grains]
+            second, fourth = sum(squares) / COUNT, sum(s * s for s in squares) / COUNT
+            self.near(row["temperature"], second / 3)
+            self.near(row["a_2"], 3 * fourth / (5 * second ** 2) - 1)
+
+    def test_velocity_histograms(self):
+        """Of the samples that are told, all but those at the time of `from` itself."""
+        rows = self.table("velocity_histograms.csv")
+        samples = [(row["v_x"], row["v_y"], row["v_z"]) for row in self.table("velocities.csv")]
+        everything = {tuple(round(u, 12) for u in v) for grains in self.frames for _, _, v, _ in grains}
+        self.assertGreaterEqual(len(samples), (FRAMES - 1) * COUNT)
+        self.assertTrue({tuple(round(u, 12) for u in v) for v in samples} <= everything)
+        for k, name in enumerate("xyz"):
+            counts = collections.Counter(math.floor(v[k] / 0.25) for v in samples)
+            found = {row["v"]: row["density"] for row in rows if row["component"] == name}
+            self.assertEqual(len(found), len(counts))
+            for bin, count in counts.items():
+                self.near(found[(bin + 0.5) * 0.25], count / (len(samples) * 0.25), name)
+
+    def test_pairs(self):
+        """g: pairs in a shell over those of grains that do not know of each other, N(N − 1)/2 (4/3)π(R_i + R_j)³(high³ − low³)/V."""
+        width, bins = 0.05, 40
+        counts, expected = [0] * bins, [0.0] * bins
+        for grains in self.frames:
+            near = []
+            for i, (p, R, _, _) in enumerate(grains):
+                for q, S, _, _ in grains[:i]:
+                    way = [a - b - SIDE * round((a - b) / SIDE) for a, b in zip(p, q)]
+                    near.append(math.sqrt(sum(w * w for w in way)) / (R + S))
+            radii = [R for _, R, _, _ in grains]
+            # the sizes of two grains that are drawn apart
+            shells = COUNT * (COUNT - 1) / 2 * sum((R + S) ** 3 for R in radii for S in radii) / COUNT ** 2
+            for r in near:
+                if 1 <= r < 3:
+                    counts[min(bins - 1, int((r - 1) / width))] += 1
+            for b in range(bins):
+                low = 1 + b * width
+                expected[b] += shells * 4 / 3 * math.pi * ((low + width) ** 3 - low ** 3) / SIDE ** 3
+        rows = self.table("pairs.csv")
+        self.assertEqual(len(rows), bins)
+        for b, row in enumerate(rows):
+            self.near(row["r"], 1 + (b + 0.5) * width)
+            self.near(row["g"], counts[b] / expected[b], row["r"])
+        pressure, = self.table("pressure.csv")
+        phi = sum(4 / 3 * math.pi * R ** 3 for _, R, _, _ in self.frames[-1]) / SIDE ** 3
+        self.near(pressure["phi"], phi)
+        self.near(pressure["Z"], 1 + 4 * phi * pressure["g_contact"])
+
+    def test_profiles(self):
+        """Means of a layer over grains and times; sigma² = <v²> − <v>²; of all layers together eta_exact is the volume of the grains."""
+        layer = collections.defaultdict(list)
+        for grains in self.frames:
+            for grain in grains:
+                layer[math.floor(grain[0][2] / 1.5)].append(grain)
+        rows = self.table("profiles.csv")
+        for b, there in layer.items():
+            row = rows[b]
+            self.near(row["h"], (b + 0.5) * 1.5)
+            self.near(row["grains"], len(there) / FRAMES)
+            self.near(row["eta"], sum(4 / 3 * math.pi * R ** 3 for _, R, _, _ in there) / (FRAMES * SIDE ** 2 * 1.5))
+            squares = 0
+            for k, name in enumerate("xyz"):
+                mean = sum(v[k] for _, _, v, _ in there) / len(there)
+                square = sum((v[k] - mean) ** 2 for _, _, v, _ in there) / len(there)
+                self.near(row["v_" + name], mean)
+                self.near(row["sigma_" + name], math.sqrt(square))
+                squares += square
+            self.near(row["temperature"], squares / 3)
+        inside = [(h, R) for grains in self.frames for (_, _, h), R, _, _ in grains]
+        expected = sum(4 / 3 * math.pi * R ** 3 - (math.pi * (R - h) ** 2 * (2 * R + h) / 3 if h < R else 0) for h, R in inside)
+        self.near(sum(row["eta_exact"] for row in rows) * 1.5 * SIDE ** 2 * FRAMES, expected)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
