@@ -82,6 +82,40 @@ segregation = { every = 0.5, from = 1, bin = 1.2 }
 heights = { every = 0.5, from = 1 }
 """
 
+OPEN = """
+title = "Discs come in above and leave below"
+units = "reduced"
+seed = 4
+[incline]
+angle = "20 deg"
+[domain]
+periodic = []
+size = [12, 20]
+[bed]
+kind = "row"
+count = 12
+[[wall]]
+point = [0, 0]
+normal = [1, 0]
+[inflow]
+rate = 4
+from = [0, 1]
+to = [3, 6]
+velocity = [1.5, 0]
+spread = 0.3
+[outflow]
+beyond = 13
+below = -4
+[grains]
+count = 30
+diameter = { mean = 1.0, std = 0.05 }
+start = { lattice = "square", spacing = 1.25, velocity = 1.5, spread = 0.5 }
+""" + LAWS % "1e4" + """[run]
+duration = 4
+[output]
+series = { every = 0.5 }
+"""
+
 SHEAR = """
 title = "Discs pressed between two heights"
 units = "reduced"
@@ -214,6 +248,26 @@ class FlowOutputs(unittest.TestCase):
             subprocess.run([chute, "run", at, "--resume", "--quiet", "--set", "run.duration=4"], check=True)
             for name in ("history.csv", "discharge.csv"):
                 self.assertEqual(table(os.path.join(at, name)), table(os.path.join(self.at, name)), name)
+
+    def test_forces_have_the_mean_one(self):
+        """Density of forces in units of their mean: its integral is 1, and so is the mean force, to a part of a bin."""
+        with tempfile.TemporaryDirectory() as folder:
+            at = run(folder, MIXTURE, "--set", "output.forces={from=1, every=0.1, bin=0.2, most=20}")
+            rows = [(float(r["force"]), float(r["density"])) for r in table(os.path.join(at, "forces.csv"))]
+        self.assertAlmostEqual(rows[0][0], 0.1)
+        self.assertAlmostEqual(sum(p * 0.2 for _, p in rows), 1, delta=1e-9)
+        self.assertAlmostEqual(sum(f * p * 0.2 for f, p in rows), 1, delta=0.02)
+
+    def test_the_way_of_an_open_chute_is_that_of_its_mean_velocity(self):
+        with tempfile.TemporaryDirectory() as folder:
+            at = run(folder, OPEN)
+            rows = table(os.path.join(at, "series.csv"))
+        self.assertEqual(len(rows), 9)
+        x = float(rows[0]["x"])
+        for before, now in zip(rows, rows[1:]):
+            x += (float(now["time"]) - float(before["time"])) * (float(before["v_x"]) + float(now["v_x"])) / 2
+            self.near(now["x"], x, "x")
+        self.assertGreater(x - float(rows[0]["x"]), 3)
 
     def test_materials_by_height(self):
         with tempfile.TemporaryDirectory() as folder:
