@@ -382,7 +382,7 @@ RenderReport render_run(const RenderJob& asked) {
     throw InputError(job.source.string() + ": the frames have no times, which a plot beside them needs");
   found.series = std::move(series);
   const Beside beside(job, frames);
-  if (!job.style.camera.all && !job.style.copies) include_round_walls(found, beside.walls);
+  if (!job.style.camera.all && !job.style.copies) include_walls(found, beside.walls);
   found.bounds.extend(job.also), found.turned.extend(job.also_turned);
   check_options(job.style, found);
   if (has_round_wall(beside.walls) && !job.style.floor) job.style.floor = false;

@@ -10,8 +10,8 @@ namespace {
 /// A wall of so many faces is round: boxes and hoppers are made of walls of one face each.
 constexpr std::size_t faces_of_a_round_wall = 8;
 
-/// By how much what is to be seen may grow along each axis.
-constexpr double most_growth = 3;
+/// By how much what is to be seen may grow along each axis: half a drum would not look like one, a silo whose top is cut off does.
+constexpr double most_growth_round = 3, most_growth = 2;
 
 std::map<int, std::vector<const read::WallPiece*>> by_wall(std::span<const read::WallPiece> walls) {
   std::map<int, std::vector<const read::WallPiece*>> faces;
@@ -51,10 +51,11 @@ bool has_round_wall(std::span<const read::WallPiece> walls) {
   return false;
 }
 
-void include_round_walls(Survey& survey, std::span<const read::WallPiece> walls) {
+void include_walls(Survey& survey, std::span<const read::WallPiece> walls) {
   const Eigen::Rotation2Dd turn(survey.turn);
+  const Eigen::Array3d grains = survey.bounds.sizes().array();
   for (const auto& [wall, faces] : by_wall(walls)) {
-    if (faces.size() < faces_of_a_round_wall) continue;
+    const double growth = faces.size() < faces_of_a_round_wall ? most_growth : most_growth_round;
     auto bounds = survey.bounds;
     auto turned = survey.turned;
     for (const auto* face : faces)
@@ -62,7 +63,7 @@ void include_round_walls(Survey& survey, std::span<const read::WallPiece> walls)
         bounds.extend(corner);
         turned.extend(turn * corner.head<2>());
       }
-    const Eigen::Array3d most = most_growth * survey.bounds.sizes().array() + 1e-9 * bounds.sizes().norm();
+    const Eigen::Array3d most = growth * grains + 1e-9 * bounds.sizes().norm();
     if ((bounds.sizes().array() > most).any()) continue;
     survey.bounds = bounds;
     if (survey.dimensions == 2) survey.turned = turned;

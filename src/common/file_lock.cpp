@@ -125,6 +125,18 @@ bool FolderLock::is_held(const fs::path& folder) {
   return held;
 }
 
+void FolderLock::remove_leftover(const fs::path& folder) {
+  const auto path = folder / lock_name;
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0) return;
+  struct stat mine {
+  }, there{};
+  if (try_lock(file, LockKind::alone) == TryLock::got && ::fstat(file, &mine) == 0 &&
+      ::stat(path.c_str(), &there) == 0 && is_same(mine, there))
+    ::unlink(path.c_str());
+  ::close(file);
+}
+
 bool FolderLock::is_name(const fs::path& file) { return file.filename().string().starts_with(lock_name); }
 
 }  // namespace chute

@@ -32,6 +32,8 @@ class FolderLock {
 
   /// Is there a process that holds the folder alone, or one of those that hold it together?
   static bool is_held(const std::filesystem::path& folder);
+  /// Removes the file of a lock that nobody has: of a process that was killed when all its work was done.
+  static void remove_leftover(const std::filesystem::path& folder);
   /// Is it the name of a lock's file?
   static bool is_name(const std::filesystem::path& file);
 

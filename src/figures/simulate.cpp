@@ -8,6 +8,7 @@
 
 #include "common/column_texts.hpp"
 #include "common/error.hpp"
+#include "common/file_lock.hpp"
 #include "common/hash.hpp"
 #include "common/side_by_side.hpp"
 #include "figures/extract.hpp"
@@ -118,7 +119,8 @@ class Planner {
 void run_all(const std::vector<Job>& jobs, int count, const std::string& command_line,
              const Report& progress) {
   side_by_side(jobs.size(), count, progress, [&](std::size_t k, const Report& report) {
-    if (run::is_finished_run_of(jobs[k].directory, jobs[k].scene)) return;
+    if (run::is_finished_run_of(jobs[k].directory, jobs[k].scene))
+      return FolderLock::remove_leftover(jobs[k].directory);
     run::RunOptions options;
     options.directory = jobs[k].directory;
     options.existing = run::Existing::replace;

@@ -45,8 +45,17 @@ RunFacts facts_of(const World<D>& world, std::string units) {
     }
     room[2 * axis] = low, room[2 * axis + 1] = high;
   }
-  for (const auto& wall : world.walls) {  // planes show even where no grain is near
-    if (wall.bounded() || wall.cylinder()) continue;
+  // Planes show as far as walls that end, which grains may reach, and even where no grain is near.
+  for (const auto& wall : world.walls) {
+    if (wall.bounded() || wall.cylinder()) {
+      for (const auto& face : faces_of(wall, 0, room))
+        for (const auto& corner : face.corners)
+          for (std::size_t k = 0; k < D; ++k) {
+            room[2 * k] = std::min(room[2 * k], corner[k]);
+            room[2 * k + 1] = std::max(room[2 * k + 1], corner[k]);
+          }
+      continue;
+    }
     Vec<D> middle;
     for (int k = 0; k < D; ++k)
       middle[k] = (room[static_cast<std::size_t>(2 * k)] + room[static_cast<std::size_t>(2 * k + 1)]) / 2;

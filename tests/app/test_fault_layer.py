@@ -120,8 +120,10 @@ class FaultLayer(unittest.TestCase):
         self.at = "whole"
         whole = tree(self.good(self.folder("whole"), *self.RUN))
         for folder, finished in self.faults(self.RUN):
-            if finished:
-                self.assertEqual(tree(folder), whole, self.at)
+            if finished:  # a disk that refuses to remove a file keeps the lock's, which the next process takes away
+                left = tree(folder)
+                left.pop("out/.chute-lock", None)
+                self.assertEqual(left, whole, self.at)
             elif not self.at.startswith("kill"):
                 self.assertEqual((folder / "out/checkpoint").exists(), "go on with: chute run out --resume" in self.said, (self.at, self.said))
                 if (folder / "out").exists():  # then it holds something to go on from, and a full disk is not physics

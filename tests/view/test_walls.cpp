@@ -47,20 +47,27 @@ TEST_CASE("A round wall belongs to what is seen, unless the grains would be lost
   const auto drum = pipe(0, 24, 2, 5);
   CHECK(view::has_round_wall(drum));
   auto filled = grains_in({-1.5, 0, -2}, {1.5, 5, 0});
-  view::include_round_walls(filled, drum);
+  view::include_walls(filled, drum);
   CHECK(filled.bounds.min().isApprox(Vector3d(-2, 0, -2)));
   CHECK(filled.bounds.max().isApprox(Vector3d(2, 5, 2)));
   const Vector3d low(-0.3, 0, -2), high(0.3, 5, -1.8);
   auto empty = grains_in(low, high);
-  view::include_round_walls(empty, drum);
+  view::include_walls(empty, drum);
   CHECK(empty.bounds.min() == low);
   CHECK(empty.bounds.max() == high);
-  // Walls of one face each, such as a hopper's, leave the view as it is.
-  const std::vector<read::WallPiece> hopper{{0, {{-9, 0, 9}, {0, 0, 0}, {0, 1, 0}}}};
-  CHECK_FALSE(view::has_round_wall(hopper));
-  auto silo = grains_in({-1, -1, -1}, {1, 1, 1});
-  view::include_round_walls(silo, hopper);
-  CHECK(silo.bounds.max() == Vector3d(1, 1, 1));
+}
+
+TEST_CASE("Of a silo all walls are seen, but those that would make the grains small") {
+  const std::vector<read::WallPiece> walls{
+      {0, {{-1, 0, 0}, {-1, 0, 3}}}, {1, {{1, 0, 0}, {1, 0, 3}}}, {2, {{-1, 0, -3}, {1, 0, -3}}}};
+  CHECK_FALSE(view::has_round_wall(walls));
+  auto half_full = grains_in({-1, -1, 0}, {1, 1, 1.6});
+  view::include_walls(half_full, walls);
+  CHECK(half_full.bounds.min() == Vector3d(-1, -1, 0));  // not the floor far below
+  CHECK(half_full.bounds.max() == Vector3d(1, 1, 3));
+  auto nearly_empty = grains_in({-1, -1, 0}, {1, 1, 0.5});
+  view::include_walls(nearly_empty, walls);
+  CHECK(nearly_empty.bounds.max() == Vector3d(1, 1, 0.5));
 }
 
 TEST_CASE("In the plane a drum is seen as the picture is turned") {
@@ -73,7 +80,7 @@ TEST_CASE("In the plane a drum is seen as the picture is turned") {
   survey.bounds = {Vector3d(-1, -2, 0), Vector3d(1, 0, 0)};
   survey.turn = 0.3;
   survey.turned = {Eigen::Vector2d(-1, -2), Eigen::Vector2d(1, 0)};
-  view::include_round_walls(survey, drum);
+  view::include_walls(survey, drum);
   CHECK(survey.turned.sizes().x() == Approx(4).epsilon(0.02));
   CHECK(survey.turned.sizes().y() == Approx(4).epsilon(0.02));
 }
