@@ -386,6 +386,7 @@ RenderReport render_run(const RenderJob& asked) {
   found.bounds.extend(job.also), found.turned.extend(job.also_turned);
   check_options(job.style, found);
   if (has_round_wall(beside.walls) && !job.style.floor) job.style.floor = false;
+  if (!job.style.box && stand_around(beside.walls, found.bounds)) job.style.box = false;
   if (found.dimensions == 3) furnish_space(job.style, found);
   if (!job.output.empty()) {
     std::error_code error;

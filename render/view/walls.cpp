@@ -51,6 +51,20 @@ bool has_round_wall(std::span<const read::WallPiece> walls) {
   return false;
 }
 
+bool stand_around(std::span<const read::WallPiece> walls, const Eigen::AlignedBox3d& seen) {
+  constexpr std::size_t sides = 4;
+  constexpr double nearly = 0.9;
+  Eigen::AlignedBox3d all;
+  std::size_t flat = 0;
+  for (const auto& [wall, faces] : by_wall(walls)) {
+    if (faces.size() >= faces_of_a_round_wall) continue;
+    ++flat;
+    for (const auto* face : faces)
+      for (const auto& corner : face->corners) all.extend(corner);
+  }
+  return flat >= sides && (all.sizes().array() >= nearly * seen.sizes().array()).all();
+}
+
 void include_walls(Survey& survey, std::span<const read::WallPiece> walls) {
   const Eigen::Rotation2Dd turn(survey.turn);
   const Eigen::Array3d grains = survey.bounds.sizes().array();

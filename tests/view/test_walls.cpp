@@ -70,6 +70,21 @@ TEST_CASE("Of a silo all walls are seen, but those that would make the grains sm
   CHECK(nearly_empty.bounds.max() == Vector3d(1, 1, 0.5));
 }
 
+TEST_CASE("Four walls around the grains are the outline of a picture, two are not") {
+  std::vector<read::WallPiece> walls;
+  for (const int side : {0, 1})
+    walls.push_back({side, {{2.0 * side, 0, 0}, {2.0 * side, 2, 0}, {2.0 * side, 2, 5}, {2.0 * side, 0, 5}}});
+  const auto box = [](const Vector3d& low, const Vector3d& high) { return Eigen::AlignedBox3d(low, high); };
+  const auto seen = box({0, 0, 0}, {2, 2, 5.2});
+  CHECK_FALSE(view::stand_around(walls, seen));
+  for (const int side : {0, 1})
+    walls.push_back(
+        {2 + side, {{0, 2.0 * side, 0}, {2, 2.0 * side, 0}, {2, 2.0 * side, 5}, {0, 2.0 * side, 5}}});
+  CHECK(view::stand_around(walls, seen));
+  CHECK_FALSE(view::stand_around(walls, box({0, 0, 0}, {2, 2, 9})));
+  CHECK_FALSE(view::stand_around(pipe(0, 24, 2, 5), box({-2, 0, -2}, {2, 5, 2})));
+}
+
 TEST_CASE("In the plane a drum is seen as the picture is turned") {
   std::vector<read::WallPiece> drum;
   for (const auto& stave : pipe(0, 24, 2, 0))
