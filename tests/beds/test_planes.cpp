@@ -1,9 +1,14 @@
 // Rough planes of glued beads, and the division of a plane that they are measured with.
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
-#include "beds/plane.hpp"
+#include "beds/planes.hpp"
 
 using namespace chute;
 using namespace chute::beds;
@@ -93,4 +98,28 @@ TEST_CASE("planes that cannot be are refused") {
   CHECK_FALSE(bed->misfit({3, 1}));
   dynamic_cast<Plane&>(*bed).count = 600;
   CHECK(bed->misfit({3, 1})->key == "bed.count");
+}
+
+TEST_CASE("beads of a plane lie where a file says, in its own unit of length, whatever their size") {
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("chute-plane-{}.csv", ::getpid());
+  const auto written = [&](const std::string& rows) {
+    std::ofstream(file) << "x,y\n" << rows;
+    PlaneFromFile bed;
+    bed.diameter = 0.4, bed.file = file.string(), bed.size = std::vector<double>{4, 3};
+    return bed;
+  };
+  // Four on a square lattice with a gap, and one that is given beyond the period.
+  const auto bed = written("0.5,0.75\n2.5,0.75\n0.5,2.25\n6.5,2.25\n");
+  CHECK_FALSE(bed.misfit({3, 1}));
+  const auto ground = bed.lay({3, 1});
+  REQUIRE(ground.beads.size() == 4);
+  CHECK(ground.beads[3].along == Approx(2.5));
+  CHECK(ground.beads[3].across == Approx(2.25));
+  CHECK(ground.beads[0].radius == Approx(0.2));
+  CHECK((*ground.length == 4 && *ground.width == 3));
+  CHECK(ground.widest_spacing == Approx(2 * std::hypot(1, 0.75)));
+  CHECK(written("0.5,0.75\n2.5,0.75\n").misfit({3, 2})->message.find("has 2 beads") != std::string::npos);
+  CHECK(bed.misfit({2, 1})->key == "bed.kind");
+  std::filesystem::remove(file);
+  CHECK(bed.misfit({3, 1})->message.find("no such file") != std::string::npos);
 }
