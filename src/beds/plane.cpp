@@ -1,5 +1,7 @@
 #include "beds/plane.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -83,8 +85,10 @@ std::optional<Refusal> Plane::misfit(const Site& site) const {
   constexpr double fullest = 0.8;
   const double coverage = static_cast<double>(count) * pi * radius() * radius() / (length() * width());
   if (coverage > fullest)
-    return Refusal{"bed.count", "these beads would cover " + std::to_string(coverage) +
-                                    " of the plane; disordered ones find room up to 0.8"};
+    return Refusal{"bed.count",
+                   fmt::format("these beads would cover {:.4g} of the plane; disordered ones find "
+                               "room up to {:g}",
+                               coverage, fullest)};
   return {};
 }
 

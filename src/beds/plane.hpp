@@ -41,7 +41,8 @@ class Plane : public Bed {
   template <class Archive>
   void describe_plane(Archive& a) {
     describe_diameter(a);
-    a.value("count", count, between(30, 1e6), "beads; default those of thesis 4.3.1");
+    constexpr double most = 1e5;  // which take minutes to be arranged
+    a.value("count", count, between(30, most), "beads; default those of thesis 4.3.1");
     a.value("size", size, positive, "[along, across]; default [112.5, 43.5] diameters, as in thesis 4.3.1");
     a.check(!size || size->size() == 2, "size", "must be [along, across]");
   }

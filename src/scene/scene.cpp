@@ -310,6 +310,8 @@ static Scene scene_of(const toml::table& table, const std::string& name) {
   }
   reader.throw_slips();
   if (const auto wrong = refusal_of_materials(scene)) reader.fail(wrong->key, wrong->message);
+  // Before anything is laid: a bed too full for its beads is looked for places in for hours.
+  if (const auto wrong = refusal_of_bed(scene)) reader.fail(wrong->key, wrong->message);
   const auto setting = setting_of(scene);
   if (!scene.engine->brings_grains()) check_contacts(scene, setting, reader);
   if (const auto wrong = refusal_of(scene)) reader.fail(wrong->key, wrong->message);
