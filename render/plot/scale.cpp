@@ -62,6 +62,13 @@ constexpr double least = std::numeric_limits<double>::denorm_min(), most = std::
 /// Room beyond the data must not leave what doubles can hold.
 double held(double value) { return std::clamp(value, -most, most); }
 
+/// Those of the axis where it names them, of the data elsewhere. An end that is named beyond all data is both.
+std::pair<double, double> ends(const Axis& axis, const Extent& e) {
+  const double low = axis.min.value_or(e.low), high = axis.max.value_or(e.high);
+  if (low <= high || (axis.min && axis.max)) return {low, high};
+  return axis.min ? std::pair{low, low} : std::pair{high, high};
+}
+
 Span padded_linear(const Axis& axis, Extent e) {
   if (e.low > e.high) {
     e.low = 0;
@@ -71,7 +78,7 @@ Span padded_linear(const Axis& axis, Extent e) {
     e.low = std::min(0.0, e.low);
     e.high = std::max(0.0, e.high);
   }
-  const double low = axis.min.value_or(e.low), high = axis.max.value_or(e.high);
+  const auto [low, high] = ends(axis, e);
   Span span{low, high, Scale::linear};
   const double range = high - low, size = std::max(std::abs(low), std::abs(high));
   if (!std::isfinite(range)) return span;
@@ -107,7 +114,8 @@ Span padded_log(const Axis& axis, Extent e) {
     e.low = std::max(e.low, least);
     e.high = held(100 * e.low);
   }
-  Span span{axis.min.value_or(e.low), axis.max.value_or(e.high), Scale::log};
+  const auto [low, high] = ends(axis, e);
+  Span span{low, high, Scale::log};
   const double ratio = std::log(span.high) - std::log(span.low);
   if (ratio < 1e-9) {
     if (!axis.min) span.low = std::max(span.low / 3, least);

@@ -185,6 +185,34 @@ TEST_CASE("the data of an axis may be any doubles: its range holds them and can 
   }
 }
 
+TEST_CASE("an end that is named beyond all data leaves an axis that begins or ends there") {
+  std::mt19937_64 bits(3);
+  for (int i = 0; i < 20'000; ++i) {
+    double end, value;
+    for (double* v : {&end, &value}) {
+      do *v = std::bit_cast<double>(bits());
+      while (!std::isfinite(*v));
+    }
+    Axis axis;
+    axis.scale = i % 2 ? Scale::log : Scale::linear;
+    if (axis.scale == Scale::log) end = std::abs(end), value = std::abs(value);
+    if (end == 0 || value == 0) continue;
+    (i % 3 ? axis.min : axis.max) = end;
+    Extent extent;
+    extent.include(value, axis.scale, i % 5 ? Extent::Mark::marker : Extent::Mark::none);
+    const auto span = span_of(axis, extent);
+    if (!(span.low < span.high) || !std::isfinite(span.low) || !std::isfinite(span.high))
+      FAIL(end << ", " << value << ": from " << span.low << " to " << span.high);
+    REQUIRE_NOTHROW(ticks_for(span, 190, 9, true));
+  }
+  Axis axis;
+  axis.min = 5;
+  Extent extent;
+  extent.include(4, Scale::linear);
+  REQUIRE(span_of(axis, extent).low == 5);
+  REQUIRE(span_of(axis, extent).high > 5);
+}
+
 TEST_CASE("what differs in late digits only stands for its distance from a round number") {
   const auto ticks = ticks_for({1.7e9, 1.7e9 + 20}, 190, 9, true);
   REQUIRE(ticks.factor == "$+1700000000$");
