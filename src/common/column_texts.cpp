@@ -265,7 +265,17 @@ std::vector<TableText> run_tables() {
                     {column("h", length, "middle of the layer, above the centres of the bed"),
                      column("grains", none, "mean number of grains whose centre lies in the layer"),
                      column("v_x", speed, "their mean velocity, > 0 downhill"),
-                     column("sigma_x", speed, "its standard deviation from grain to grain")})},
+                     column("sigma_x", speed, "its standard deviation from grain to grain"),
+                     column("gravity_power", power,
+                            "with powers: what gravity does on the grains of the layer, "
+                            "per time and volume (2D: area)"),
+                     column("carried_power", power,
+                            "what contacts bring in from the layers beside; < 0: take there. "
+                            "Over all layers its sum is 0"),
+                     column("dissipation", power,
+                            "what contacts in the layer take from the motion: their losses, and "
+                            "what their springs store. gravity_power + carried_power - "
+                            "dissipation is what the grains' motion gains")})},
       {"discharge.csv", "a time", "",
        behind_clock("since the start", {column("out", none, "grains below the opening"),
                                         column("out_mass", mass, "mass of these")})},

@@ -8,6 +8,7 @@ struct Offers {
   bool in_2d = true, in_3d = true;
   bool by_contact = true;  ///< grains act on each other as [contact] says; else all they do is not to overlap
   bool contacts = false;   ///< what touches, with forces
+  bool forces = false;     ///< of these act all the time, as between soft grains, and not as blows
   bool collisions = false;   ///< what passes between hard grains, collision by collision
   bool impacts = false;      ///< the begin of each contact
   bool independent = false;  ///< grains side by side that do not feel each other

@@ -70,7 +70,7 @@ static void describe(Archive& a, Curve& curve) {
             "a CSV file of the run; default its impacts; required for value, mean, table");
   else if (value || table)
     a.required("file", curve.file);
-  if (all || histogram || scatter || mean) a.sections("where", curve.where);
+  if (all || histogram || scatter || mean || table) a.sections("where", curve.where);
   const bool rate = curve.extract == Extract::rate || curve.extract == Extract::record;
   if (all || histogram || value || rate || state || curve.extract == Extract::network)
     a.value("scale", curve.scale, "histogram: x times this; value, mean, rate, record, network, state: y");

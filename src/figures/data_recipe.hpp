@@ -49,6 +49,11 @@ struct Where {
   std::string column;
   bool absolute = false;
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+
+  bool takes(double value) const {
+    const double v = absolute ? std::abs(value) : value;
+    return v >= low && v < high;
+  }
 };
 
 /// One series of one panel: which runs, and what is taken from them.

@@ -34,8 +34,7 @@ class Rows {
     for (const auto& where : curve.where) {
       const auto& values = column(where.column);
       for (std::size_t i = 0; i < values.size(); ++i) {
-        const double v = where.absolute ? std::abs(values[i]) : values[i];
-        if (!(v >= where.low && v < where.high)) passes_[i] = false;
+        if (!where.takes(values[i])) passes_[i] = false;
       }
     }
   }
@@ -206,18 +205,32 @@ std::vector<bool> telling(const read::Table& table, const std::string& column) {
 /// Fewer runs than these tell nothing of how runs scatter: their own errors count then.
 constexpr std::size_t fewest_runs = 3;
 
+/// Of numbers that have these errors.
+double error_of_mean(const std::vector<double>& errors) {
+  double square = 0;
+  for (const double error : errors) square += error * error;
+  return std::sqrt(square) / static_cast<double>(std::max<std::size_t>(1, errors.size()));
+}
+
 /// Mean over runs with its error: from their scatter, or, of too few, from what they state themselves, if all do.
 Estimate over_runs(const std::vector<double>& values, const std::vector<double>& own) {
   Estimate e = estimate_of(values);
   if (values.size() >= fewest_runs) return e;
-  double square = 0;
-  for (const double error : own) square += error * error;
-  const double combined = std::sqrt(square) / static_cast<double>(std::max<std::size_t>(1, own.size()));
+  const double combined = error_of_mean(own);
   e.error = std::isfinite(combined) && combined > 0 ? std::optional(combined) : std::nullopt;
   return e;
 }
 
-/// A column of a table against another, or against the first, averaged over runs at equal x.
+/// Those of them that the curve's `where` lets pass.
+void choose(std::vector<bool>& rows, const read::Table& table, const Curve& curve) {
+  for (const auto& where : curve.where) {
+    const auto values = table.column(where.column);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = rows[i] && where.takes(values[i]);
+  }
+}
+
+/// A column of a table against another, or against the first, averaged over runs at equal x; where a run has several such rows
+/// (layers at several times), its mean of them counts, as one.
 std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> runs, const std::string& file,
                                 const std::string& other = "") {
   struct Values {
@@ -227,14 +240,20 @@ std::vector<FigureRow> averaged(const Curve& curve, std::span<const fs::path> ru
   for (const auto& run : runs) {
     const auto table = read::read_table(run / file);
     const auto x = table.column(other.empty() ? table.header.front() : other), y = table.column(curve.column);
-    const auto tells = telling(table, curve.column);
+    auto tells = telling(table, curve.column);
+    choose(tells, table, curve);
     const auto error = curve.column + "_err";
     const auto err = table.has(error) ? table.column(error) : std::vector<double>(x.size(), NAN);
+    std::map<double, Values> here;
     for (std::size_t i = 0; i < x.size(); ++i)
       if (tells[i] && std::isfinite(y[i])) {
-        auto& values = at_same(at, x[i]);
+        auto& values = at_same(here, x[i]);
         values.y.push_back(y[i]), values.err.push_back(err[i]);
       }
+    for (const auto& [place, own] : here) {
+      auto& values = at_same(at, place);
+      values.y.push_back(estimate_of(own.y).mean), values.err.push_back(error_of_mean(own.err));
+    }
   }
   std::vector<FigureRow> rows;
   for (const auto& [x, values] : at) {

@@ -40,6 +40,7 @@ struct HistorySpec {
   double every = 0, from = 0, bin = 0;
   std::int64_t samples = 1;
   std::optional<std::vector<double>> between;
+  bool powers = false;
 };
 template <class Archive>
 void describe(Archive& a, HistorySpec& spec) {
@@ -50,6 +51,9 @@ void describe(Archive& a, HistorySpec& spec) {
   a.value("between", spec.between, "[x, x]: only grains there count");
   a.check(!spec.between || (spec.between->size() == 2 && (*spec.between)[0] < (*spec.between)[1]), "between",
           "must be [low, high] with low < high");
+  a.value("powers", spec.powers,
+          "the energy balance of each layer: what gravity puts in, contacts carry in and take");
+  a.check(!spec.powers || !spec.between, "powers", "are of layers all along the flow: leave out between");
 }
 /// [output.history]
 class HistoryOutput final : public TableOutput<HistoryOutput, HistorySpec> {
@@ -59,6 +63,7 @@ class HistoryOutput final : public TableOutput<HistoryOutput, HistorySpec> {
   void fill(const Scales& scales) override {
     if (spec && spec->bin == 0) spec->bin = scales.length;
   }
+  Needs needs() const override { return {.powers = spec && spec->powers}; }
   double rhythm() const override {
     return spec ? spec->every / static_cast<double>(spec->samples) : std::numeric_limits<double>::infinity();
   }

@@ -56,15 +56,9 @@ class Frames final : public Remembering<Frames> {
   ContactSamples contacts_;
   std::vector<double> times_;
 
-  /// With gravity as it is by then, of an incline that is tilted meanwhile.
   io::RunFacts facts_at(double time) const {
     io::RunFacts facts = run_.facts;
-    if (run_.tilt) {
-      const bool flat = run_.frame.dimensions == 2;
-      const double angle = run_.tilt->angle(time), g = run_.tilt->gravity;
-      facts.gravity = flat ? as_file_vector(gravity_on_incline<2>(g, angle))
-                           : as_file_vector(gravity_on_incline<3>(g, angle));
-    }
+    facts.gravity = run_.gravity_at(time);
     return facts;
   }
   static std::string name(const char* folder, std::int64_t k) {

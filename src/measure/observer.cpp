@@ -13,6 +13,13 @@ std::vector<std::string> RunContext::comments(std::string what) const {
   return {std::move(what), title + "; " + made_by};
 }
 
+std::array<double, 3> RunContext::gravity_at(double time) const {
+  if (!tilt) return facts.gravity;
+  const double angle = tilt->angle(time), g = tilt->gravity;
+  return frame.dimensions == 2 ? as_file_vector(gravity_on_incline<2>(g, angle))
+                               : as_file_vector(gravity_on_incline<3>(g, angle));
+}
+
 std::string RunContext::moment(double time) const {
   return fmt::format("{} = {:.6g}", offers.clock == "time" ? "t" : offers.clock, time);
 }

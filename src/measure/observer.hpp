@@ -50,6 +50,8 @@ struct RunContext {
   Window window(std::optional<double> from) const { return {from.value_or(0), duration, from ? 10u : 64u}; }
   /// Comment lines of a table: what it holds, and from which run.
   std::vector<std::string> comments(std::string what) const;
+  /// Gravity in the coordinates of files, as it is by then where an incline is tilted meanwhile.
+  std::array<double, 3> gravity_at(double time) const;
   /// "t = 5"; "sweeps = 5" where the engine counts those.
   std::string moment(double time) const;
   /// From when on averages with from = "steady" count, and whether that was a steady state: for the comments of a table.
@@ -100,6 +102,7 @@ class Remembering : public Observer {
 /// What an observer asks of the engine.
 struct Needs {
   bool contacts = false, impacts = false, avalanches = false;
+  bool powers = false;  ///< what forces and velocities at contacts make: grains are soft, walls stand still
   bool plane_of_beads = false;  ///< a bed of beads in 3D that repeats along and across
   bool closed_box = false;      ///< a domain that repeats in all directions
   bool space = false;           ///< three dimensions

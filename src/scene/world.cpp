@@ -397,6 +397,11 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
     const auto needs = output->needs();
     if (auto r = lacks(offers.contacts, "tells of no contacts", "output." + output.word(), needs.contacts))
       return r;
+    if (auto r = lacks(offers.forces, "tells of no forces that act all the time, of which powers are",
+                       "output." + output.word() + ".powers", needs.powers))
+      return r;
+    if (needs.powers && std::ranges::any_of(scene.walls, &WallSpec::moves))
+      return Refusal{"output." + output.word() + ".powers", "are told where all walls stand still"};
     if (needs.impacts && !scene.grains.shapes.empty())
       return Refusal{"output." + output.word(), "tells of impacts of round grains only"};
     if (auto r =

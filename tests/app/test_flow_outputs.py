@@ -220,6 +220,34 @@ class FlowOutputs(unittest.TestCase):
                 self.near(row["v_x"], mean, "v_x")
                 self.near(row["sigma_x"], math.sqrt(sum((u - mean) ** 2 for u in v) / len(v)), "sigma_x")
 
+    def test_powers_of_layers_add_up_to_the_account(self):
+        """Over all layers and in time: gravity's work, nothing carried, the losses with what springs store, and so what the motion gains."""
+        for scene, volume in ((MIXTURE, 10 * 1.2), (SCENE, 6 * 5 * 1.2)):
+            with tempfile.TemporaryDirectory() as folder:
+                at = run(folder, scene, "--set", "output.history={every=0.001, bin=1.2, powers=true}", "--set", "run.duration=1.5",
+                         "--set", "output.frames=", "--set", "output.segregation=", "--set", "output.heights=", "--set", "output.across=",
+                         "--set", "output.discharge=", "--set", "output.series.every=0.5")
+                account = [{k: float(v) for k, v in row.items() if v} for row in table(os.path.join(at, "series.csv"))]
+                layers = table(os.path.join(at, "history.csv"))
+            sums = {}
+            for row in layers:
+                now = sums.setdefault(float(row["time"]), [0, 0, 0, 0])
+                for k, name in enumerate(("gravity_power", "carried_power", "dissipation")):
+                    now[k] += float(row[name]) * volume
+                now[3] += abs(float(row["carried_power"])) * volume
+            carried = [now[1:] for now in sums.values()]
+            self.assertLess(max(abs(c) for c, _, _ in carried), 1e-9)
+            self.assertGreater(max(size for _, _, size in carried), 1, "nothing was carried, so that this tests nothing")
+            for before, now in zip(account, account[1:]):
+                # By trapezoids: a contact lasts for twenty looks and more.
+                looks = [v for t, v in sorted(sums.items()) if before["time"] - 1e-6 < t < now["time"] + 1e-6]
+                gravity, taken = (0.001 * (sum(v[k] for v in looks) - (looks[0][k] + looks[-1][k]) / 2) for k in (0, 2))
+                change = {name: now[name] - before[name] for name in ("gravity_work", "elastic", "normal_loss", "shear_loss", "translation", "rotation")}
+                lost = change["elastic"] + change["normal_loss"] + change["shear_loss"]
+                self.assertAlmostEqual(gravity, change["gravity_work"], delta=0.001 * abs(gravity))
+                self.assertAlmostEqual(taken, lost, delta=0.01 * abs(lost))
+                self.assertAlmostEqual(gravity - taken, change["translation"] + change["rotation"], delta=0.01 * abs(lost))
+
     def test_strips_along_the_flow_and_histories_of_a_stretch_of_it(self):
         with tempfile.TemporaryDirectory() as folder:
             at = run(folder, SCENE, "--set", "output.across.axis=x", "--set", "output.history.between=[2, 5]")

@@ -145,4 +145,21 @@ TEST_CASE("an instant of several runs is one, whatever their steps make of its l
   CHECK(rows[3].y == 6);
 }
 
+TEST_CASE("rows of a table that a curve asks for: each run's mean at equal x counts once") {
+  const RunFolder a("rows_a"), b("rows_b"), c("rows_c");
+  a.write("history.csv", "time,h,grains,v_x\n1,0.5,3,100\n2,0.5,3,1\n3,0.5,3,3\n4,0.5,3,100\n");
+  b.write("history.csv", "time,h,grains,v_x\n2,0.5,3,5\n2,1.5,3,9\n");
+  c.write("history.csv", "time,h,grains,v_x\n2,0.5,3,8\n3,0.5,0.1,50\n");
+  Curve curve;
+  curve.extract = Extract::table, curve.file = "history.csv", curve.column = "v_x", curve.against = "h";
+  curve.where = {{.column = "time", .low = 2, .high = 4}};
+  const std::vector<fs::path> runs{a.path, b.path, c.path};
+  const auto rows = extract(curve, runs);
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].y == Approx((2 + 5 + 8) / 3.0));
+  CHECK(*rows[0].y_err == Approx(std::sqrt((9 + 0 + 9) / 2.0 / 3)));
+  CHECK(rows[1].x == 1.5);
+  CHECK(rows[1].y == 9);
+}
+
 }  // namespace extract_flow_tests

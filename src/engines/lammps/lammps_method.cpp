@@ -23,7 +23,12 @@ std::unique_ptr<Engine> made(World<D> world, const LammpsMethod& method, const e
 }  // namespace
 
 Offers LammpsMethod::offers() const {
-  return {.contacts = true, .walls = true, .wall_motion = true, .wall_surfaces = true, .materials = true};
+  return {.contacts = true,
+          .forces = true,
+          .walls = true,
+          .wall_motion = true,
+          .wall_surfaces = true,
+          .materials = true};
 }
 
 std::optional<Refusal> LammpsMethod::refusal(const engines::Setting& s) const { return refusal_of_laws(s); }

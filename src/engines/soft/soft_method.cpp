@@ -87,6 +87,7 @@ std::optional<BounceError> error_of_bounces(const engines::Setting& s, const Ste
 
 Offers SoftMethod::offers() const {
   return {.contacts = true,
+          .forces = true,
           .impacts = true,
           .independent = true,
           .clumps = true,
