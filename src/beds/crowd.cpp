@@ -19,9 +19,10 @@ double squared(const Place& d) { return d[0] * d[0] + d[1] * d[1]; }
 /// Places in square cells, to find those near one.
 class Grid {
  public:
-  Grid(const Sheet& sheet, double cell)
-      : nx_(std::max<std::int64_t>(1, static_cast<std::int64_t>(sheet.length / cell))),
-        ny_(std::max<std::int64_t>(1, static_cast<std::int64_t>(sheet.width / cell))),
+  /// Cells are at least `least` wide, and wider where there would be many more of them than places.
+  Grid(const Sheet& sheet, double least)
+      : nx_(cells(sheet.length, width_of(sheet, least))),
+        ny_(cells(sheet.width, width_of(sheet, least))),
         dx_(sheet.length / static_cast<double>(nx_)),
         dy_(sheet.width / static_cast<double>(ny_)),
         in_(static_cast<std::size_t>(nx_ * ny_)) {
@@ -39,6 +40,15 @@ class Grid {
   }
 
  private:
+  static double width_of(const Sheet& sheet, double least) {
+    constexpr double most = 4;  // cells for a place
+    const auto places = static_cast<double>(sheet.place.size());
+    return std::max(least, std::sqrt(sheet.length * sheet.width / (most * places)));
+  }
+  static std::int64_t cells(double length, double width) {
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(length / width));
+  }
+
   std::int64_t nx_, ny_;
   double dx_, dy_;
   std::vector<std::vector<std::size_t>> in_;

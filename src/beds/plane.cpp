@@ -89,6 +89,16 @@ std::optional<Refusal> Plane::misfit(const Site& site) const {
                    fmt::format("these beads would cover {:.4g} of the plane; disordered ones find "
                                "room up to {:g}",
                                coverage, fullest)};
+  // There a ball would fall into a gap at once.
+  constexpr double emptiest = 0.01;
+  if (coverage < emptiest)
+    return Refusal{"bed.count", fmt::format("these beads would cover {:.3g} of the plane, less than {:g}",
+                                            coverage, emptiest)};
+  constexpr double narrowest = 2;  // diameters: or a bead and its own image are neighbours
+  if (std::min(length(), width()) < narrowest * diameter)
+    return Refusal{"bed.size",
+                   fmt::format("{:.4g} is less than {:g} diameters of a bead, which repeats after it",
+                               std::min(length(), width()), narrowest)};
   return {};
 }
 
