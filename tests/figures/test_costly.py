@@ -15,7 +15,7 @@ def between(curve, low, high):
 class Costly(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.made = QuickFigures(chute, "fig-5-07", "fig-5-08", "fig-b-04")
+        cls.made = QuickFigures(chute, "fig-5-07", "fig-5-08", "fig-b-04", "fig-b-08")
 
     def test_friction_slows_a_dense_flow(self):
         curves = self.made.curves("fig-5-07")
@@ -51,6 +51,19 @@ class Costly(unittest.TestCase):
             off = [y - law(x) for x, y, _ in points]
             self.assertLess(max(map(abs, off)), apart, "panel " + panel)
             self.assertLess(abs(sum(off) / len(off)), mean_apart, "panel " + panel)
+
+    def test_energy_is_carried_down_to_where_contacts_take_it(self):
+        curves = self.made.curves("fig-b-08")
+        for panel in "cd":
+            gravity, carried, taken = (curves[panel, name] for name in ("gravity", "carried", "dissipation"))
+            self.assertAlmostEqual(sum(y for _, y, _ in carried), 0, delta=0.01 * sum(abs(y) for _, y, _ in carried))
+            self.assertGreater(between(carried, 0, 4), 3 * carried[0][2])
+            self.assertLess(between(carried, 7, 10), 0)
+            self.assertLess(between(gravity, 0, 4), between(taken, 0, 4))
+            self.assertGreater(between(gravity, 7, 10), between(taken, 7, 10))
+        total = {panel: [sum(y for _, y, _ in curves[panel, name]) for name in ("gravity", "dissipation")] for panel in "cd"}
+        self.assertGreater(total["c"][0], total["c"][1], "a flow that starts gains")
+        self.assertLess(total["d"][0], total["d"][1], "a flow that stops loses")
 
 
 if __name__ == "__main__":
