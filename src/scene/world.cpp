@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "common/error.hpp"
 #include "core/random.hpp"
@@ -13,6 +14,7 @@
 #include "scene/intervals.hpp"
 #include "scene/open_ends.hpp"
 #include "scene/species.hpp"
+#include "scene/watching.hpp"
 #include "starts/launch_keys.hpp"
 
 namespace chute::scene {
@@ -392,35 +394,10 @@ std::optional<Refusal> refusal_of(const Scene& scene) {
   if (auto r = lacks(offers.walls, "knows no walls", "bed.kind", ground.smooth)) return r;
   if (auto r = refusal_of_walls(scene, offers, periods, ground, setting.mean_diameter)) return r;
   if (auto r = refusal_of_open_ends(scene, offers, {periods.length, widest_of(scene)})) return r;
-  for (const auto& output : scene.output) {
-    if (!output->wanted()) continue;
-    const auto needs = output->needs();
-    if (auto r = lacks(offers.contacts, "tells of no contacts", "output." + output.word(), needs.contacts))
-      return r;
-    if (auto r = lacks(offers.forces, "tells of no forces that act all the time, of which powers are",
-                       "output." + output.word() + ".powers", needs.powers))
-      return r;
-    if (needs.powers && std::ranges::any_of(scene.walls, &WallSpec::moves))
-      return Refusal{"output." + output.word() + ".powers", "are told where all walls stand still"};
-    if (needs.impacts && !scene.grains.shapes.empty())
-      return Refusal{"output." + output.word(), "tells of impacts of round grains only"};
-    if (auto r =
-            lacks(offers.avalanches, "tells of no avalanches", "output." + output.word(), needs.avalanches))
-      return r;
-    if (auto r = lacks(offers.impacts, "tells of no impacts", "output." + output.word(), needs.impacts))
-      return r;
-    const auto repeats = [&](int axes) {
-      return std::all_of(periods.length.begin(), periods.length.begin() + axes,
-                         [](double length) { return length > 0; });
-    };
-    if (needs.plane_of_beads && !(scene.dimensions == 3 && ground.beads.size() >= 3 && repeats(2)))
-      return Refusal{"output." + output.word(),
-                     "tells of planes of beads that repeat along and across (dimensions = 3)"};
-    if (needs.space && scene.dimensions != 3)
-      return Refusal{"output." + output.word(), "is of flows in space (dimensions = 3)"};
-    if (needs.closed_box && !repeats(scene.dimensions))
-      return Refusal{"output." + output.word(), "needs a domain that repeats in all directions"};
-  }
+  const int repeating = static_cast<int>(
+      std::ranges::count_if(std::span(periods.length).first(static_cast<std::size_t>(scene.dimensions)),
+                            [](double length) { return length > 0; }));
+  if (auto r = refusal_of_outputs(scene, offers, {repeating, ground.beads.size()})) return r;
   return method.refusal(setting);
 }
 
