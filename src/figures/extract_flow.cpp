@@ -182,7 +182,8 @@ std::vector<FigureRow> history(const Curve& curve, std::span<const fs::path> run
   for (const auto& run : runs) {
     const auto table = read::read_table(run / "history.csv");
     const auto time = table.column("time"), h = table.column("h"), y = table.column(curve.column);
-    for (std::size_t i = 0; i < time.size(); ++i) at_same(at[h[i]], time[i]).push_back(y[i]);
+    for (std::size_t i = 0; i < time.size(); ++i)
+      if (std::isfinite(y[i])) at_same(at[h[i]], time[i]).push_back(y[i]);
   }
   std::vector<FigureRow> rows;
   for (const auto& [h, times] : at)

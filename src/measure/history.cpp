@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/vec.hpp"
 #include "measure/flow_outputs.hpp"
 
 namespace chute::measure {
@@ -15,19 +16,16 @@ struct HistorySums {
   }
 };
 
-using Numbers = std::array<double, 3>;
-double dot(const Numbers& a, const Numbers& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec<3> place_of(const GrainsView& grains, std::size_t i) {
+  return {{grains.position[0][i], grains.position[1][i], grains.dimensions == 3 ? grains.position[2][i] : 0}};
+}
 
 /// Of the point `arm` away from a grain's centre.
-Numbers velocity_at(const GrainsView& grains, std::size_t i, const Numbers& arm) {
-  const auto v = velocity_of(grains, i);
-  if (grains.dimensions == 2) {
-    const double spin = grains.spin[0][i];
-    return {v[0] - spin * arm[1], v[1] + spin * arm[0], 0};
-  }
-  const Numbers w{grains.spin[0][i], grains.spin[1][i], grains.spin[2][i]};
-  return {v[0] + w[1] * arm[2] - w[2] * arm[1], v[1] + w[2] * arm[0] - w[0] * arm[2],
-          v[2] + w[0] * arm[1] - w[1] * arm[0]};
+Vec<3> velocity_at(const GrainsView& grains, std::size_t i, const Vec<3>& arm) {
+  const bool flat = grains.dimensions == 2;
+  const Vec<3> spin{
+      {flat ? 0 : grains.spin[0][i], flat ? 0 : grains.spin[1][i], grains.spin[flat ? 0 : 2][i]}};
+  return Vec<3>{velocity_of(grains, i)} + cross(spin, arm);
 }
 
 /// Profiles of grains, their velocity and its fluctuations over the height, again and again: what a front is seen in.
@@ -60,11 +58,13 @@ class History final : public Remembering<History> {
     for (std::size_t b = 0; b < now_.size(); ++b) {
       const HistorySums& s = now_[b];
       if (s.count == 0 && s.dissipation == 0) continue;
+      // A layer in which grains touch, but none has its centre, has no velocity.
       const double mean = s.count > 0 ? s.v_x / s.count : std::numeric_limits<double>::quiet_NaN();
+      const double variance = s.count > 0 ? std::max(0.0, s.v_x2 / s.count - mean * mean) : mean;
       const double looks = static_cast<double>(looks_), volumes = looks * bin_ * run_.frame.footprint;
       rows_.push_back({grains.time, (static_cast<double>(b) + 0.5) * bin_, s.count / looks, mean,
-                       std::sqrt(std::max(0.0, s.v_x2 / s.count - mean * mean)), s.gravity / volumes,
-                       s.carried / volumes, s.dissipation / volumes});
+                       std::sqrt(variance), s.gravity / volumes, s.carried / volumes,
+                       s.dissipation / volumes});
     }
     now_.clear(), looks_ = 0;
   }
@@ -106,11 +106,11 @@ class History final : public Remembering<History> {
   /// the difference is what it carries from layer to layer.
   void add_powers(const Look& look, const GrainsView& grains) {
     const auto normal = run_.frame.normal();
-    const auto gravity = run_.gravity_at(grains.time);
+    const Vec<3> gravity{run_.gravity_at(grains.time)};
     for (std::size_t i = 0; i < grains.moving; ++i)
       if (auto* layer = layer_at(grains.position[normal][i]))
-        layer->gravity += grains.mass[i] * dot(gravity, velocity_of(grains, i));
-    const auto carry = [&](std::size_t i, const Numbers& arm, const Numbers& force) {
+        layer->gravity += grains.mass[i] * dot(gravity, Vec<3>{velocity_of(grains, i)});
+    const auto carry = [&](std::size_t i, const Vec<3>& arm, const Vec<3>& force) {
       if (i >= grains.moving) return 0.0;
       const double power = dot(force, velocity_at(grains, i, arm));
       if (auto* layer = layer_at(grains.position[normal][i])) layer->carried += power;
@@ -118,15 +118,9 @@ class History final : public Remembering<History> {
     };
     for (const auto& c : look.engine.contacts()) {
       const auto a = static_cast<std::size_t>(c.a);
-      Numbers arm_a{}, arm_b{}, back{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double centre = k < static_cast<std::size_t>(grains.dimensions) ? grains.position[k][a] : 0;
-        arm_a[k] = c.point[k] - centre;
-        arm_b[k] = arm_a[k] - c.branch[k];
-        back[k] = -c.force[k];
-      }
-      double taken = -carry(a, arm_a, back);
-      if (c.b >= 0) taken -= carry(static_cast<std::size_t>(c.b), arm_b, c.force);
+      const Vec<3> arm = Vec<3>{c.point} - place_of(grains, a), force{c.force};
+      double taken = -carry(a, arm, -1 * force);
+      if (c.b >= 0) taken -= carry(static_cast<std::size_t>(c.b), arm - Vec<3>{c.branch}, force);
       if (auto* layer = layer_at(c.point[normal])) layer->dissipation += taken, layer->carried += taken;
     }
   }

@@ -326,7 +326,6 @@ std::optional<Refusal> refusal_of_walls(const Scene& scene, const Offers& offers
 std::optional<Refusal> refusal_of_bed(const Scene& scene) { return scene.bed->misfit(site_of(scene)); }
 
 std::optional<Refusal> refusal_of(const Scene& scene) {
-  if (auto wrong = refusal_of_bed(scene)) return wrong;
   const auto ground = scene.bed->lay(site_of(scene));
   const auto periods = periods_of(scene, ground);
   if (periods.wrong) return periods.wrong;

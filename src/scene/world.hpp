@@ -15,7 +15,7 @@ engines::Setting setting_of(const Scene& scene);
 /// What of the bed cannot be, without laying it. All else here lays it, and may do so only where this says nothing.
 std::optional<Refusal> refusal_of_bed(const Scene& scene);
 
-/// What of the scene cannot be: a start that does not fit, a method that cannot do it, an observer that asks for more than
+/// What else of the scene cannot be: a start that does not fit, a method that cannot do it, an observer that asks for more than
 /// the method gives.
 std::optional<Refusal> refusal_of(const Scene& scene);
 

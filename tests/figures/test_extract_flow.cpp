@@ -107,7 +107,7 @@ TEST_CASE(
     run->write("series.csv", "time,v_x\n0," + std::to_string(v) + "\n1," + std::to_string(v) + "\n");
     run->write("scene.toml", scene);
     run->write("history.csv", "time,h,grains,v_x,sigma_x\n0,0.5,3," + std::to_string(v) +
-                                  ",0\n1,0.5,3,7,0\n1,1.5,1," + std::to_string(2 * v) + ",0\n");
+                                  ",0\n1,0.5,3,7,0\n1,1.5,1," + std::to_string(2 * v) + ",0\n2,1.5,0,,\n");
     v += 1;
   }
   Curve curve;
