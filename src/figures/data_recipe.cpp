@@ -37,6 +37,9 @@ static void describe(Archive& a, Curve& curve) {
   a.value("quick", curve.quick, "and with --quick");
   a.value("after", curve.after,
           "key=value: each run begins with what another, with these settings besides, ended with");
+  a.value("go_on", curve.go_on,
+          "with after: key=value of the run that goes on, such as grains.start.velocity, a push");
+  a.check(curve.go_on.empty() || !curve.after.empty(), "go_on", "needs after, the run before");
   a.value("threads", curve.threads, between(1, 1024),
           "of each run; with engine.method = \"lammps\" processes");
   a.value("runs", curve.runs, "instead of a scene: run directories that are there, relative to the recipe");

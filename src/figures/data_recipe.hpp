@@ -62,8 +62,10 @@ struct Curve {
   std::vector<std::string> set;    ///< key=value, on top of the recipe's
   std::vector<std::string> quick;  ///< and with --quick, on top of the recipe's `quick`
   std::vector<std::string> after;  ///< the runs begin with the ends of runs that have these settings besides
-  std::int64_t threads = 1;        ///< of each run; of LAMMPS processes
-  double length = 1;               ///< L of a pile
+  std::vector<std::string>
+      go_on;                 ///< and with these then, on top of all; the start is what the run before left
+  std::int64_t threads = 1;  ///< of each run; of LAMMPS processes
+  double length = 1;         ///< L of a pile
   std::optional<std::vector<double>> collapse;  ///< [τ, D]: s^τ P(s) against s/L^D
   std::vector<std::string>
       runs;  ///< instead of a scene: run directories that are there, relative to the recipe

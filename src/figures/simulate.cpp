@@ -68,6 +68,7 @@ class Planner {
           settings.emplace_back(brought);
         settings.push_back(fmt::format("grains.start={{from='{}'}}",
                                        fs::absolute(job_before(curve, seed).directory).string()));
+        settings.insert(settings.end(), curve.go_on.begin(), curve.go_on.end());
       }
       auto job = job_of(curve, settings);
       const auto [at, is_new] = known.try_emplace(job.directory.string(), plan.jobs.size());
@@ -200,7 +201,7 @@ Work work_of(const DataRecipe& recipe, const fs::path& recipe_file, const fs::pa
       before, [](const Job& job) { return run::is_finished_run_of(job.directory, job.scene); });
   auto alone = recipe;
   for (auto& curve : alone.curves)
-    if (!begun) curve.after.clear();
+    if (!begun) curve.after.clear(), curve.go_on.clear();
   std::ranges::for_each(Planner(alone, recipe_file, work, quick).plan().jobs, add);
   auto set = recipe.set;
   if (quick) set.insert(set.end(), recipe.quick.begin(), recipe.quick.end());

@@ -25,6 +25,8 @@ struct ShapeSpec {
   std::vector<MemberSpec> members;
   Turned orientation = Turned::random;
   double share = 1;
+  std::optional<std::string>
+      material;  ///< of the grains that have it; else those for whose material none is told
 };
 
 template <class Archive>
@@ -41,6 +43,10 @@ void describe(Archive& a, ShapeSpec& shape) {
   a.sections("member", shape.members);
   a.choice("orientation", shape.orientation, turned_words, "of the grains at the start");
   a.value("share", shape.share, positive, "of the grains, by number: so many parts of the sum of all shares");
+  a.value(
+      "material", shape.material,
+      "only its grains have this shape, and shares count among theirs; default those of materials that no shape "
+      "names; where all name another, grains are round");
 }
 
 /// What is wrong with the shape, which has this path in the scene.

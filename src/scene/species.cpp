@@ -83,6 +83,14 @@ std::optional<Refusal> refusal_of_materials(const Scene& scene) {
                  : fmt::format("\"{}\" is no [[material]], did you mean {}?", *name, hint)};
   };
   if (auto wrong = unknown(scene.bed_material, "bed.material")) return wrong;
+  const auto shares = shares_of(scene.materials);
+  for (std::size_t k = 0; k < scene.grains.shapes.size(); ++k) {
+    const auto& name = scene.grains.shapes[k].material;
+    const auto key = fmt::format("grains.shape[{}].material", k);
+    if (auto wrong = unknown(name, key)) return wrong;
+    if (name && shares[static_cast<std::size_t>(material_of(scene, name))] == 0)
+      return Refusal{key, fmt::format("no grain is of \"{}\", its share is 0", *name)};
+  }
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
     if (auto wrong = unknown(scene.walls[w].material, fmt::format("wall[{}].material", w))) return wrong;
   for (std::size_t k = 0; k < scene.contact.between.size(); ++k)

@@ -81,8 +81,10 @@ starts::Opening opening_of(const Scene& scene, const beds::Ground& ground, const
                           {}};
   if (scene.grains.start->brings_grains()) return opening;
   opening.radii = radii_of(scene);
-  for (std::size_t i = 0; i < opening.radii.size() && !forms.empty(); ++i)
-    opening.radii[i] *= forms[form_of(scene, i)].reach;
+  if (forms.empty()) return opening;
+  const auto materials = materials_of(scene);
+  for (std::size_t i = 0; i < opening.radii.size(); ++i)
+    opening.radii[i] *= forms[form_of(scene, i, materials[i])].reach;
   return opening;
 }
 
@@ -133,6 +135,16 @@ std::vector<engines::Material> species_of(const Scene& scene, const std::vector<
   auto& bed = all[static_cast<std::size_t>(material_of(scene, scene.bed_material))];
   if (!bed.grains) bed.radius = bed.smallest_radius = scene.bed->diameter / 2;
   return all;
+}
+
+/// Contacts see no more than the tips of the grains that have such forms.
+void sharpen(engines::Material& material, const std::vector<FormSizes>& forms,
+             const std::vector<std::size_t>& own) {
+  if (!material.grains) return;
+  double lightest = 1, smallest = 1;
+  for (const auto k : own)
+    lightest = std::min(lightest, forms[k].lightest), smallest = std::min(smallest, forms[k].smallest);
+  material.smallest_mass *= lightest, material.smallest_radius *= smallest;
 }
 
 Sizes sizes_of(const Scene& scene) {
@@ -242,12 +254,16 @@ engines::Setting setting_of(const Scene& scene) {
     if (form.lightest < (light ? light->lightest : 1)) light = &form;
   if (!forms.empty()) {  // what there is to do: their spheres
     s.grains = 0;
-    for (std::int64_t i = 0; i < sizes.count; ++i)
-      s.grains += forms[form_of(scene, static_cast<std::size_t>(i))].spheres;
+    const auto materials = materials_of(scene);
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      s.grains += forms[form_of(scene, i, materials[i])].spheres;
+    for (std::size_t k = 0; k < s.materials.size(); ++k)
+      sharpen(s.materials[k], forms, forms_for(scene, static_cast<int>(k)));
   }
   if (light) {
-    const double m_tip = light->lightest * sphere_mass(scene.grains.density, sizes.smallest),
-                 R_tip = light->smallest * sizes.smallest;
+    const double lightest =
+        scene.materials.empty() ? sphere_mass(scene.grains.density, sizes.smallest) : sizes.lightest;
+    const double m_tip = light->lightest * lightest, R_tip = light->smallest * sizes.smallest;
     if (many)
       s.stiffest = {"", "the tips of two grains", {m_tip / 2, R_tip / 2}, 2 * R_tip};
     else
@@ -417,7 +433,7 @@ World<D> make_world(const Scene& scene) {
     Vec<D> place;
     for (int k = 0; k < D; ++k) place[k] = launch.place[static_cast<std::size_t>(k)];
     if (world.clumps.any())
-      add_clump(scene, place, launch.radius, world);
+      add_clump(scene, place, launch.radius, launch.material, world);
     else
       grains.add(place, launch.radius, *launch.mass, sphere_inertia(*launch.mass, launch.radius), true);
     for (int k = 0; k < D; ++k) grains.velocity[k].back() = launch.velocity[static_cast<std::size_t>(k)];

@@ -55,6 +55,8 @@ std::vector<Launch> FromFile::begin(const Opening& opening) const {
       throw InputError(fmt::format(
           "grains.start.from: {}: its grains do not lie in a plane z = 0; needs dimensions = 3", from));
     launches.push_back({g.place, g.velocity, g.spin, g.radius, g.orientation, g.mass, g.material});
+    const double height = g.place[static_cast<std::size_t>(opening.dimensions) - 1];
+    if (!above || height > *above) launches.back().velocity[0] += velocity;
   }
   return launches;
 }

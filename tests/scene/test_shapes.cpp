@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/forms.hpp"
 #include "scene/scene.hpp"
 #include "scene/world.hpp"
 
@@ -65,6 +66,45 @@ TEST_CASE("grains of any shape weigh what round ones of their diameter weigh") {
   }
   CHECK(of_rods > 30);  // 40 of 60 on average, with a standard deviation of 3.7
   CHECK(of_rods < 52);
+}
+
+TEST_CASE("shapes can be those of materials, and grains of a material without one are round") {
+  const std::string materials =
+      "[[material]]\nname = \"wood\"\nshare = 0.5\ndensity = 0.5\n[[material]]\nname = "
+      "\"steel\"\nshare = 0.5\ndensity = 8\n";
+  const auto named = [](const std::string& shape, const char* material) {
+    return shape + "material = \"" + material + "\"\n";
+  };
+  const auto world = scene::make_world<2>(shaped(named(rods, "wood") + materials)),
+             round = scene::make_world<2>(shaped(materials));
+  REQUIRE(world.clumps.forms.size() == 2);
+  CHECK(world.clumps.forms[1].members.size() == 1);
+  for (std::size_t i = 0; i < 60; ++i) {
+    CHECK(world.grains.material[i] == round.grains.material[i]);
+    CHECK(world.grains.mass[i] == Approx(round.grains.mass[i]).epsilon(1e-12));
+    CHECK(world.clumps.form[i] == world.grains.material[i]);
+  }
+  // A shape of no material is for those that no other names; where every material has one, nobody is round.
+  const auto both =
+      scene::make_world<2>(shaped(named(rods, "steel") + "[[grains.shape]]\naspect = 3\n" + materials));
+  REQUIRE(both.clumps.forms.size() == 2);
+  for (std::size_t i = 0; i < 60; ++i) CHECK(both.clumps.form[i] == 1 - both.grains.material[i]);
+}
+
+TEST_CASE("the step sees the tips of light rods, and not those that heavy ones would have") {
+  const auto step = [](const std::string& rod, const std::string& light, const std::string& more) {
+    const auto scene =
+        shaped("[[material]]\nname = \"a\"\nshare = 0.5\ndensity = " + light +
+                   "\n[[material]]\nname = \"b\"\nshare = 0.5\n"
+                   "density = 8\n[[contact.between]]\nmaterials = [\"a\", \"b\"]\nrestitution = 0.6\n" +
+                   more + (rod.empty() ? "" : rods + "material = \"" + rod + "\"\n"),
+               {"grains.diameter.std=0", "output.series.every=1e6"});
+    return scene.engine->step(scene::setting_of(scene));
+  };
+  const double tip = std::sqrt(scene::sizes_of_forms(shaped(rods)).front().lightest);
+  CHECK(step("", "1", "") / step("", "4", "") == Approx(0.5).epsilon(1e-2));
+  CHECK(step("a", "1", "") / step("", "1", "") == Approx(tip).epsilon(1e-2));
+  CHECK(step("b", "1", "") == Approx(step("", "1", "")).epsilon(1e-2));
 }
 
 TEST_CASE("orientations are drawn evenly, in the plane and in space") {
