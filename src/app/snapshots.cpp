@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -75,6 +76,29 @@ std::vector<std::uint8_t> fixed_of(const read::GrainFrame& frame, const std::vec
   return fixed;
 }
 
+/// Which species each grain is of: chute's materials by their names, else other programs' species, else their types. Nothing
+/// where there are more than a table can tell of: then the array is something else.
+void set_species(const read::GrainFrame& frame, replay::Snapshot& shot) {
+  constexpr std::size_t most_species = 64;
+  const auto* species = frame.find("species");
+  if (!species || species->words.empty())
+    species = whole_numbers(frame, frame.own ? fields::material.name
+                                   : species ? "species"
+                                             : fields::type.name);
+  if (!species || species->components != 1) return;
+  std::map<double, int> number;
+  for (const double v : species->values) number[v] = 0;
+  if (number.size() > most_species) return;
+  for (auto& [value, k] : number) {
+    k = static_cast<int>(shot.materials.size());
+    auto name =
+        species->words.empty() ? fmt::format("{}", value) : species->words[static_cast<std::size_t>(value)];
+    std::ranges::replace(name, ',', '_');  // tables have it in the names of columns
+    shot.materials.push_back(std::move(name));
+  }
+  for (const double v : species->values) shot.material.push_back(number[v]);
+}
+
 std::vector<Contact> contacts_of(const std::filesystem::path& path) {
   std::vector<Contact> contacts;
   for (const auto& row : read::read_contact_rows(path)) {
@@ -143,8 +167,7 @@ replay::Snapshot snapshot_of(const read::FrameFile& file, const FileSays& says) 
   if (const auto* id = whole_numbers(frame, fields::id.name))
     for (const double v : id->values) shot.id.push_back(static_cast<std::int64_t>(v));
   if (const auto* mass = numbers(frame, fields::mass.name)) shot.mass = mass->values;
-  if (const auto* material = whole_numbers(frame, fields::material.name))
-    for (const double v : material->values) shot.material.push_back(static_cast<int>(v));
+  set_species(frame, shot);
   shot.velocity = tuples<3>(frame, fields::velocity.name);
   shot.spin = spins(frame);
   shot.force = tuples<3>(frame, fields::force.name);

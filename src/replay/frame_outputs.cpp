@@ -21,9 +21,10 @@ struct Measurable {
   const char* word;
   bool by_itself;
 };
-constexpr Measurable all[] = {{"series", true},   {"profiles", true},  {"fields", true}, {"velocities", true},
-                              {"moments", true},  {"forces", true},    {"pairs", true},  {"cells", false},
-                              {"heights", false}, {"diffusion", false}};
+constexpr Measurable all[] = {{"series", true},     {"profiles", true},    {"fields", true},
+                              {"velocities", true}, {"moments", true},     {"forces", true},
+                              {"pairs", true},      {"segregation", true}, {"cells", false},
+                              {"heights", false},   {"diffusion", false}};
 
 bool is_measurable(const std::string& word) {
   return std::ranges::any_of(all, [&](const auto& m) { return word == m.word; });
@@ -59,7 +60,9 @@ std::vector<Chosen<measure::Output>> frame_outputs(const FrameScales& of, double
     for (const auto& m : all) {
       const std::string word = m.word;
       if (!of.velocities && needs_velocities(word)) continue;
-      if (!m.by_itself || (word == "pairs" && !of.closed_box) || (word == "forces" && !of.forces)) continue;
+      if (!m.by_itself || (word == "pairs" && !of.closed_box) || (word == "forces" && !of.forces) ||
+          (word == "segregation" && !of.mixture))
+        continue;
       wanted.push_back(word);
     }
   toml::table table;

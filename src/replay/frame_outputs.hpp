@@ -17,6 +17,7 @@ struct FrameScales {
   bool closed_box = false;  ///< it repeats in all directions
   bool velocities = false;  ///< grains have them
   bool forces = false;      ///< contacts have forces
+  bool mixture = false;     ///< moving grains are of several species
 };
 
 /// Does the output say nothing without velocities?

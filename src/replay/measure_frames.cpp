@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/error.hpp"
 #include "common/fields.hpp"
@@ -50,6 +51,13 @@ double bead_spacing(const Snapshot& frame, double diameter) {
   return diameter;
 }
 
+std::size_t species_that_move(const Snapshot& frame) {
+  std::set<int> species;
+  for (std::size_t i = 0; i < frame.material.size(); ++i)
+    if (frame.fixed.empty() || !frame.fixed[i]) species.insert(frame.material[i]);
+  return species.size();
+}
+
 class Measuring {
  public:
   explicit Measuring(const MeasureJob& job) : job_(job), folder_(job.folder, is_measured) {}
@@ -77,6 +85,7 @@ class Measuring {
   std::vector<Chosen<measure::Output>> outputs_;
   std::vector<std::unique_ptr<measure::Observer>> observers_;
   measure::SeriesObserver* series_ = nullptr;
+  std::set<std::string> late_species_;  // that the first frame has not
   bool forces_ = true, network_ = false, masses_ = true, velocities_ = true, spins_ = true;
 
   void choose_frames() {
@@ -140,16 +149,21 @@ class Measuring {
     const std::size_t dimensions = static_cast<std::size_t>(first.dimensions);
     bool closed = true;
     for (std::size_t k = 0; k < dimensions; ++k) closed &= first.domain[2 * k + 1] > first.domain[2 * k];
+    run_.materials = first.materials;
     const FrameScales scales{{run_.duration, length, g > 0 ? std::sqrt(g * length) : 1, between_},
                              between_,
                              closed,
                              !first.velocity.empty(),
-                             first.contacts.has_value()};
+                             first.contacts.has_value(),
+                             species_that_move(first) > 1};
     outputs_ = frame_outputs(scales, job_.from, job_.only, job_.settings);
     for (const auto& output : outputs_) {
       if (output->needs().closed_box && !closed)
         throw InputError(first.name + ": " + output.word() +
                          " needs a domain that repeats in all directions");
+      if (output.word() == "segregation" && first.materials.empty())
+        throw InputError(fmt::format("{}: no array {}, type or species, of which segregation tells",
+                                     first.name, fields::material.name));
       for (auto& observer : output->make(run_)) {
         if (auto* series = dynamic_cast<measure::SeriesObserver*>(observer.get())) series_ = series;
         observers_.push_back(std::move(observer));
@@ -167,6 +181,7 @@ class Measuring {
                                      frame.dimensions, run_.frame.dimensions));
       frame.dimensions = run_.frame.dimensions;
       const double time = job_.times[chosen_[k]];
+      number_species(frame);
       engine_->show(frame, step_of(time), time);
       note_what_is_there(frame);
       if (frame.velocity.empty() && frame.size() > 0)
@@ -188,6 +203,17 @@ class Measuring {
     if (network_) run_.write("contacts.pvd", pvd(times, networks));
   }
 
+  /// As the first frame numbers them, whatever this one has.
+  void number_species(Snapshot& frame) {
+    std::vector<int> number;
+    for (const auto& name : frame.materials) {
+      const auto known = std::ranges::find(run_.materials, name);
+      number.push_back(static_cast<int>(known - run_.materials.begin()));
+      if (known == run_.materials.end()) late_species_.insert(name);
+    }
+    for (int& material : frame.material) material = number[static_cast<std::size_t>(material)];
+  }
+
   void note_what_is_there(const Snapshot& frame) {
     if (frame.size() == 0) return;
     forces_ &= engine_->knows_forces();
@@ -207,6 +233,10 @@ class Measuring {
   }
 
   void tell_what_is_missing() {
+    if (!late_species_.empty())
+      report_.notes.push_back(
+          fmt::format("the first frame has no grains of {}: tables of species leave them out",
+                      fmt::join(late_species_, ", ")));
     const auto lacks = [&](bool there, std::string_view array, const char* what) {
       if (!there) report_.notes.push_back(fmt::format("no array {}: {}", array, what));
     };

@@ -25,7 +25,8 @@ struct Snapshot {
   std::vector<double> mass;
   std::vector<std::array<double, 3>> velocity, spin, force;
   std::vector<std::array<double, 4>> orientation;  ///< in the plane [0], an angle
-  std::vector<int> material;
+  std::vector<int> material;                       ///< species, a number in `materials`
+  std::vector<std::string> materials;              ///< what they are called
   /// The contact network beside the file; ids as `id`. Nothing where there is none.
   std::optional<std::vector<Contact>> contacts;
 

@@ -66,6 +66,56 @@ class Frames(unittest.TestCase):
             for name in ("elastic", "normal_loss", "residual"):
                 self.assertEqual(set(measured[name]), {""})
 
+    def test_a_mixtures_frames_give_its_own_tables(self):
+        """Of species by chute's names; other programs' files have numbers, or words."""
+        mixture = FLAT + """segregation = { from = 1, every = 0.5 }
+[[material]]
+name = "sand"
+share = 0.5
+[[material]]
+name = "lead"
+share = 0.5
+density = 11
+"""
+        with open(self.path("mixture.toml"), "w", encoding="utf-8") as file:
+            file.write(mixture)
+        self.call("run", "mixture.toml", "-o", "mixture", "--set", "run.duration=3", "--quiet")
+        out = self.new()
+        self.call("measure", "mixture", "-o", out, "--from", 1, "--quiet")
+        for name in ("segregation.csv", "species.csv"):
+            own, measured = table(self.path("mixture", name)), table(self.path(out, name))
+            self.assertGreater(len(own), 4)  # a run tells of the segregation from the start on
+            self.assertEqual({column: values[-len(measured[column]):] for column, values in own.items()}, measured, name)
+        dumps, of_types = self.new(), self.new() + "-types"
+        self.call("convert", "mixture", "--to", "lammps-dump", "-o", dumps)
+        named = self.new()
+        self.call("measure", dumps, "-o", named, "--from", 1, "--bed", 0, "--quiet")
+        self.assertEqual(table(self.path(named, "segregation.csv"))["index_lead"], table(self.path(out, "segregation.csv"))["index_lead"])
+        for name in os.listdir(self.path(dumps)):  # types 1 and 2, and 0 of the bed, in place of the materials' arrays
+            path = self.path(dumps, name)
+            with open(path, encoding="utf-8") as file:
+                text = file.read()
+            head, rows = text.split("ITEM: ATOMS ")
+            columns, *lines = rows.splitlines()
+            names = columns.split()
+            kept = [k for k, column in enumerate(names) if column not in ("material", "species")]
+            changed = [" ".join(names[k] for k in kept)]
+            for line in lines:
+                words = dict(zip(names, line.split()))
+                words["type"] = str(int(words["type"]) * (1 + int(words["material"])))
+                changed.append(" ".join(words[names[k]] for k in kept))
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(head + "ITEM: ATOMS " + "\n".join(changed) + "\n")
+        self.call("measure", dumps, "-o", of_types, "--from", 1, "--bed", 0, "--quiet")
+        own, measured = table(self.path("mixture", "segregation.csv")), table(self.path(of_types, "segregation.csv"))
+        for mine, theirs in (("index_sand", "index_1"), ("height_lead", "height_2")):
+            self.assertEqual(own[mine][-len(measured[theirs]):], measured[theirs])
+        with open(self.path("nameless.dump"), "w", encoding="utf-8") as file:
+            file.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp ff\n0 9\n0 9\n0 9\n"
+                       "ITEM: ATOMS id x y z radius\n1 1 1 1 0.5\n")
+        said = self.call("measure", "nameless.dump", "-o", self.new(), "--only", "segregation", status=2).stderr
+        self.assertIn("no array material, type or species, of which segregation tells", said)
+
     def test_frames_of_other_programs(self):
         """What a dump holds is measured with the same numbers; what it lacks is told in a line, and empty."""
         for run in ("flat", "space"):

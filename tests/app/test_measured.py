@@ -12,6 +12,7 @@ import unittest
 
 chute = os.path.abspath(sys.argv[1])
 SIDE, EVERY, COUNT, FRAMES = 6.0, 0.5, 120, 5
+SPECIES = {0.2 + 0.05 * k: name for k, name in enumerate("ABC")}  # by radius
 
 
 def frames():
@@ -39,8 +40,8 @@ class Measured(unittest.TestCase):
                 file.write('%d\nLattice="%g 0 0 0 %g 0 0 0 %g" Properties=species:S:1:pos:R:3:radius:R:1:vel:R:3:mass:R:1 pbc="T T T" '
                            "Time=%g\n" % (COUNT, SIDE, SIDE, SIDE, EVERY * f))
                 for place, radius, velocity, mass in grains:
-                    file.write("A %s\n" % " ".join("%.17g" % x for x in (*place, radius, *velocity, mass)))
-        done = subprocess.run([chute, "measure", "g.xyz", "-o", "out", "--only", "pairs", "velocities", "moments", "series", "profiles",
+                    file.write("%s %s\n" % (SPECIES[radius], " ".join("%.17g" % x for x in (*place, radius, *velocity, mass))))
+        done = subprocess.run([chute, "measure", "g.xyz", "-o", "out", "--only", "pairs", "velocities", "moments", "series", "profiles", "segregation", "--set", "segregation.bin=1.5",
                                "--set", "pairs.bin=0.05", "--set", "pairs.reach=3", "--set", "velocities.bin=0.25", "--set", "profiles.bin=1.5",
                                "--quiet"], cwd=cls.folder, capture_output=True, text=True)
         if done.returncode:
@@ -92,6 +93,27 @@ class Measured(unittest.TestCase):
             self.assertEqual(len(found), len(counts))
             for bin, count in counts.items():
                 self.near(found[(bin + 0.5) * 0.25], count / (len(samples) * 0.25), name)
+
+    def test_species(self):
+        """2 (mean part of all volume below one's centre − that of all others), by volume; layers of volume and velocity."""
+        for row, grains in zip(self.table("segregation.csv"), self.frames, strict=True):
+            grains = sorted((place[2], R) for place, R, _, _ in grains)
+            whole, below, parts = sum(R ** 3 for _, R in grains), 0, []
+            for _, R in grains:
+                parts.append((R, R ** 3, (below + R ** 3 / 2) / whole))
+                below += R ** 3
+            for size, name in SPECIES.items():
+                mine, others = ([(v, u) for R, v, u in parts if (R == size) == own] for own in (True, False))
+                ways = [sum(v * u for v, u in some) / sum(v for v, _ in some) for some in (mine, others)]
+                self.near(row["index_" + name], 2 * (ways[0] - ways[1]), name)
+                heights = [z for z, R in grains if R == size]
+                self.near(row["height_" + name], sum(heights) / len(heights), name)
+        for row in self.table("species.csv"):
+            for size, name in SPECIES.items():
+                inside = [v for grains in self.frames for p, R, v, _ in grains if R == size and abs(p[2] - row["h"]) < 0.75]
+                self.near(row["grains_" + name], len(inside) / FRAMES, name)
+                self.near(row["eta_" + name], len(inside) / FRAMES * 4 / 3 * math.pi * size ** 3 / (1.5 * SIDE ** 2), name)
+                self.near(row["v_x_" + name], sum(v[0] for v in inside) / len(inside), name)
 
     def test_pairs(self):
         """g: pairs in a shell over those of grains that do not know of each other, N(N − 1)/2 (4/3)π(R_i + R_j)³(high³ − low³)/V."""

@@ -1,22 +1,35 @@
-"""Making quick figures, and reading their CSV."""
+"""Making figures, and reading their CSV.
+
+Tests of what figures must show are called as test_X.py CHUTE [full] [FOLDER]: with "full" the full figures are made, not the
+quick ones, and with a folder those count that lie there already."""
 import bisect
 import csv
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 
+OPTIONS = sys.argv[2:]
+FULL = "full" in OPTIONS
+THERE = next((o for o in OPTIONS if os.path.isdir(o)), None)
 
-class QuickFigures:
-    """The quick figures of those names, made by the program in a folder that goes with this object."""
+
+class Figures:
+    """The figures of those names, made by the program in a folder that goes with this object."""
 
     def __init__(self, chute, *names):
-        self.folder = tempfile.TemporaryDirectory()
-        unittest.addModuleCleanup(self.folder.cleanup)
-        subprocess.run([chute, "figure", *names, "--quick", "--quiet", "--jobs", "2", "-o", self.folder.name], check=True)
+        self.folder = THERE
+        if THERE:
+            return
+        folder = tempfile.TemporaryDirectory()
+        self.folder = folder.name
+        unittest.addModuleCleanup(folder.cleanup)
+        quick = [] if FULL else ["--quick"]
+        subprocess.run([chute, "figure", *names, *quick, "--quiet", "--jobs", "2", "-o", self.folder], check=True)
 
     def curves(self, name):
-        return read_curves(os.path.join(self.folder.name, name + ".csv"))
+        return read_curves(os.path.join(self.folder, name + ".csv"))
 
 
 def read_curves(path):

@@ -1,5 +1,5 @@
-"""What the thesis says that a reader must see in the figures of one ball on a rough plane (4.3), on the CSV of the quick
-figures: test_ball_on_plane.py CHUTE."""
+"""What the thesis says that a reader must see in the figures of one ball on a rough plane (4.3), on their CSV:
+test_ball_on_plane.py CHUTE (see figure_csv.py)."""
 import csv
 import json
 import math
@@ -11,7 +11,7 @@ import sys
 import tempfile
 import unittest
 
-from figure_csv import QuickFigures
+from figure_csv import Figures
 
 chute = sys.argv[1]
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes", "ball-3d.toml")
@@ -24,7 +24,7 @@ made = None
 
 def setUpModule():
     global made
-    made = QuickFigures(chute, *FIGURES)
+    made = Figures(chute, *FIGURES)
 
 
 def curves(figure):
@@ -145,7 +145,7 @@ class Impacts(unittest.TestCase):
         ratios = [y / x for x, y, _ in dots if x > 0.03]
         near = sum(any(0.93 < q / 0.8**k < 1.02 for k in (1, 2, 3)) for q in ratios)
         self.assertGreater(near, 0.8 * len(ratios))
-        with open(os.path.join(made.folder.name, "fig-4-35.csv"), encoding="utf-8") as file:
+        with open(os.path.join(made.folder, "fig-4-35.csv"), encoding="utf-8") as file:
             shares = {line[2]: float(line.split(": ")[1].split()[0]) for line in file if "% of the rows" in line}
         self.assertGreater(shares["b"], 80)
         self.assertLess(shares["a"], 40)

@@ -6,7 +6,7 @@ import sys
 import tempfile
 import unittest
 
-from figure_csv import QuickFigures, read_curves
+from figure_csv import Figures, read_curves
 
 chute = sys.argv[1]
 
@@ -14,7 +14,7 @@ chute = sys.argv[1]
 class Beyond(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.made = QuickFigures(chute, "fig-b-15")
+        cls.made = Figures(chute, "fig-b-15")
 
     def test_beyond_the_steady_state(self):
         curves = self.made.curves("fig-b-15")

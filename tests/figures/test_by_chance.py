@@ -4,7 +4,7 @@ import os
 import sys
 import unittest
 
-from figure_csv import QuickFigures, interpolate
+from figure_csv import Figures, interpolate
 
 chute = sys.argv[1]
 
@@ -12,12 +12,12 @@ chute = sys.argv[1]
 class ByChance(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.made = QuickFigures(chute, "fig-m-09", "fig-m-10", "fig-m-11", "fig-m-15", "fig-m-16")
+        cls.made = Figures(chute, "fig-m-09", "fig-m-10", "fig-m-11", "fig-m-15", "fig-m-16")
 
     def test_heads_tell_a_restitution_only_of_methods_that_have_one(self):
         told = {}
         for figure in ("fig-m-09", "fig-m-10"):  # Monte Carlo; dsmc and event, both with gravity
-            with open(os.path.join(self.made.folder.name, figure + ".csv"), encoding="utf-8") as file:
+            with open(os.path.join(self.made.folder, figure + ".csv"), encoding="utf-8") as file:
                 told[figure] = " ".join(line for line in file if line.startswith("# parameters"))
         self.assertIn("theta=0deg", told["fig-m-09"])
         self.assertNotIn("e_n=", told["fig-m-09"])

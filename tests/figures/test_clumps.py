@@ -2,7 +2,7 @@
 import sys
 import unittest
 
-from figure_csv import QuickFigures
+from figure_csv import Figures
 
 chute = sys.argv[1]
 
@@ -10,7 +10,7 @@ chute = sys.argv[1]
 class Clumps(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.made = QuickFigures(chute, "fig-b-09", "fig-b-11")
+        cls.made = Figures(chute, "fig-b-09", "fig-b-11")
 
     def test_free_top(self):
         curves = self.made.curves("fig-b-11")

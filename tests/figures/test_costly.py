@@ -2,7 +2,7 @@
 import sys
 import unittest
 
-from figure_csv import QuickFigures
+from figure_csv import Figures
 
 chute = sys.argv[1]
 
@@ -15,7 +15,7 @@ def between(curve, low, high):
 class Costly(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.made = QuickFigures(chute, "fig-5-07", "fig-5-08", "fig-b-04", "fig-b-08")
+        cls.made = Figures(chute, "fig-5-07", "fig-5-08", "fig-b-04", "fig-b-08")
 
     def test_friction_slows_a_dense_flow(self):
         curves = self.made.curves("fig-5-07")

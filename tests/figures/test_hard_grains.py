@@ -3,7 +3,7 @@ import math
 import sys
 import unittest
 
-from figure_csv import QuickFigures
+from figure_csv import Figures
 
 chute = sys.argv[1]
 
@@ -11,7 +11,7 @@ chute = sys.argv[1]
 class HardGrains(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.made = QuickFigures(chute, "fig-m-02", "fig-m-03", "fig-m-06")
+        cls.made = Figures(chute, "fig-m-02", "fig-m-03", "fig-m-06")
 
     def test_cooling(self):
         """While the gas is homogeneous it cools by Haff's law, and the exact methods cool alike."""

@@ -3,14 +3,14 @@ for other seeds."""
 import sys
 import unittest
 
-from figure_csv import QuickFigures
+from figure_csv import Figures
 
 chute = sys.argv[1]
 
 
 def setUpModule():
     global curves
-    made = QuickFigures(chute, "fig-b-06").curves("fig-b-06")
+    made = Figures(chute, "fig-b-06").curves("fig-b-06")
     curves = {key: {x: y for x, y, _ in points} for key, points in made.items()}
 
 

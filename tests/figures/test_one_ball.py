@@ -1,12 +1,12 @@
-"""What the thesis says that a reader must see in the figures of one ball on a line (4.2), on the CSV of the quick
-figures: test_one_ball.py CHUTE."""
+"""What the thesis says that a reader must see in the figures of one ball on a line (4.2), on their
+CSV: test_one_ball.py CHUTE (see figure_csv.py)."""
 import math
 import random
 import statistics
 import sys
 import unittest
 
-from figure_csv import QuickFigures
+from figure_csv import Figures
 
 chute = sys.argv[1]
 FIGURES = ["fig-4-08", "fig-4-09", "fig-4-10", "fig-4-11", "fig-4-12", "fig-4-13", "fig-4-21", "fig-4-22"]
@@ -15,7 +15,7 @@ made = None
 
 def setUpModule():
     global made
-    made = QuickFigures(chute, *FIGURES)
+    made = Figures(chute, *FIGURES)
 
 
 def curves(figure):

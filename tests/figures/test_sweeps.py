@@ -1,10 +1,10 @@
-"""What the thesis says that a reader must see in the figures of 4.2 that are made from sweeps, on the CSV of the quick
-figures: test_sweeps.py CHUTE. Where it does not come out, the test holds what does, and says so."""
+"""What the thesis says that a reader must see in the figures of 4.2 that are made from sweeps, on their CSV:
+test_sweeps.py CHUTE (see figure_csv.py). Where it does not come out, the test holds what does, and says so."""
 import math
 import sys
 import unittest
 
-from figure_csv import QuickFigures, interpolate
+from figure_csv import Figures, interpolate
 
 chute = sys.argv[1]
 FIGURES = ["fig-4-05", "fig-4-06", "fig-4-07", "fig-4-14", "fig-4-15", "fig-4-16", "fig-4-17", "fig-4-18", "fig-4-20"]
@@ -13,7 +13,7 @@ made = None
 
 def setUpModule():
     global made
-    made = QuickFigures(chute, *FIGURES)
+    made = Figures(chute, *FIGURES)
 
 
 def curves(figure):
