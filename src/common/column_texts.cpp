@@ -279,6 +279,24 @@ std::vector<TableText> run_tables() {
       {"discharge.csv", "a time", "",
        behind_clock("since the start", {column("out", none, "grains below the opening"),
                                         column("out_mass", mass, "mass of these")})},
+      {"surface.csv", "a strip across x at a time", "",
+       behind_clock(
+           "since the start",
+           {column("x", length, "middle of the strip"),
+            column(
+                "height", length,
+                "of the highest point of the grains whose centre lies in it, above the bed's centres; in space the "
+                "mean of that of its squares")})},
+      {"slopes.csv", "a time", "",
+       behind_clock(
+           "since the start",
+           {column(
+                "angle_left", degree,
+                "by which the surface falls from its highest place towards smaller x, against the bed: of a line "
+                "through its strips between output.surface.low and high of the greatest height"),
+            column("angle_right", degree, "the same towards larger x"),
+            column("top", length, "x of the highest place"),
+            column("height", length, "of that, above the bed's centres")})},
       {"avalanches.csv",
        "a size",
        "",

@@ -1,8 +1,9 @@
 #pragma once
 #include "measure/outputs.hpp"
+#include "measure/surface.hpp"
 
 /// What a scene can ask for about flows between walls, flows that change, and grains that run out: averages across a
-/// channel, over the height as time goes on, and the number beyond a plane.
+/// channel, over the height as time goes on, the number beyond a plane, and the surface of a heap.
 namespace chute::measure {
 
 /// Which way strips lie side by side: across the flow, or along it one behind the other.
@@ -86,6 +87,28 @@ class DischargeOutput final : public TableOutput<DischargeOutput, DischargeSpec>
                                     text = "how many grains have run out through an opening, in time";
   double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
   std::vector<std::string> files() const override { return {"discharge.csv"}; }
+  std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
+};
+
+template <class Archive>
+void describe(Archive& a, SurfaceSpec& spec) {
+  a.required("every", spec.every, positive, "time from one look to the next");
+  a.value("from", spec.from, non_negative, "time of the first");
+  a.value("bin", spec.bin, non_negative, "width of a strip across x; default a bead's diameter");
+  a.value("low", spec.low, unit_interval,
+          "a slope ends where the surface is lower than so much of its greatest height");
+  a.value("high", spec.high, unit_interval, "and begins where it is no higher than so much of it");
+  a.check(spec.low < spec.high, "high", "must be more than low");
+}
+/// [output.surface]
+class SurfaceOutput final : public TableOutput<SurfaceOutput, SurfaceSpec> {
+ public:
+  static constexpr std::string_view
+      word = "surface",
+      text = "the free surface along x, and its slopes: of a heap the angle of repose";
+  void fill(const Scales& scales) override;
+  double rhythm() const override { return spec ? spec->every : std::numeric_limits<double>::infinity(); }
+  std::vector<std::string> files() const override { return {"surface.csv", "slopes.csv"}; }
   std::vector<std::unique_ptr<Observer>> make(const RunContext& run) const override;
 };
 

@@ -22,6 +22,7 @@ Catalogue<Output>& list() {
       kind_of<Output, StartingOutput>(),   kind_of<Output, HeightsOutput>(),
       kind_of<Output, AcrossOutput>(),     kind_of<Output, HistoryOutput>(),
       kind_of<Output, DischargeOutput>(),  kind_of<Output, SegregationOutput>(),
+      kind_of<Output, SurfaceOutput>(),
   };
   return all;
 }

@@ -24,7 +24,7 @@ struct Measurable {
 constexpr Measurable all[] = {{"series", true},     {"profiles", true},    {"fields", true},
                               {"velocities", true}, {"moments", true},     {"forces", true},
                               {"pairs", true},      {"segregation", true}, {"cells", false},
-                              {"heights", false},   {"diffusion", false}};
+                              {"heights", false},   {"diffusion", false},  {"surface", false}};
 
 bool is_measurable(const std::string& word) {
   return std::ranges::any_of(all, [&](const auto& m) { return word == m.word; });

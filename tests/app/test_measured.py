@@ -169,5 +169,56 @@ class Measured(unittest.TestCase):
         self.near(sum(row["eta_exact"] for row in rows) * 1.5 * SIDE ** 2 * FRAMES, expected)
 
 
+class Heaps(unittest.TestCase):
+    """Heaps with sides of known slopes, in the plane and in space."""
+
+    def slopes(self, grains, flat, *settings):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "heap.xyz"), "w", encoding="utf-8") as file:
+                file.write("%d\nProperties=species:S:1:pos:R:3:radius:R:1 Time=0\n" % len(grains))
+                for x, across, up in grains:
+                    file.write("A %.17g %.17g %.17g 0.5\n" % ((x, up, 0) if flat else (x, across, up)))
+            done = subprocess.run([chute, "measure", "heap.xyz", "-o", "out", "--only", "surface", "--set", "surface.bin=1", *settings,
+                                   "--quiet"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return table(os.path.join(folder, "out", "slopes.csv"))[0], table(os.path.join(folder, "out", "surface.csv"))
+
+    def heap(self, across=(0,)):
+        """The surface is at 10 - 0.5 (20 - x) on the left, 10 - 0.25 (x - 20) on the right, below it grains, and one far away."""
+        grains = []
+        for k in range(62):
+            x = k + 0.5
+            top = 10 - (0.5 * (20.5 - x) if x < 20.5 else 0.25 * (x - 20.5))
+            for y in across:
+                grains += [(x, y, top - 0.5 - depth) for depth in range(3) if top - 0.5 - depth > 0]
+        return grains + [(90.5, across[0], 0.5)]
+
+    def test_slopes_of_both_sides(self):
+        for flat, across in ((True, (0,)), (False, (0.5, 1.5, 2.5))):
+            slopes, surface = self.slopes(self.heap(across), flat)
+            self.assertAlmostEqual(slopes["angle_left"], math.degrees(math.atan(0.5)), places=9)
+            self.assertAlmostEqual(slopes["angle_right"], math.degrees(math.atan(0.25)), places=9)
+            self.assertAlmostEqual(slopes["height"], 10)
+            self.assertAlmostEqual(slopes["top"], 20.5)
+            heights = {row["x"]: row["height"] for row in surface}
+            self.assertAlmostEqual(heights[15.5], 7.5)
+            self.assertIsNone(heights[70.5])  # nothing lies there
+            self.assertEqual(max(heights), 90.5)
+
+    def test_the_mean_across_and_the_range_that_counts(self):
+        slopes, surface = self.slopes(self.heap((0.5, 1.5)) + [(32.5, 0.5, 7.5)], False)
+        self.assertAlmostEqual({row["x"]: row["height"] for row in surface}[32.5], (8 + 7) / 2)
+        self.assertNotAlmostEqual(slopes["angle_right"], math.degrees(math.atan(0.25)), places=3)
+        low, _ = self.slopes(self.heap((0.5, 1.5)) + [(32.5, 0.5, 7.5)], False, "--set", "surface.high=0.7")
+        self.assertAlmostEqual(low["angle_right"], math.degrees(math.atan(0.25)), places=9)  # the bump is higher
+
+    def test_a_wall_or_a_single_grain_has_no_slope(self):
+        one_sided, _ = self.slopes([g for g in self.heap() if g[0] > 20], True)
+        self.assertIsNone(one_sided["angle_left"])
+        self.assertAlmostEqual(one_sided["angle_right"], math.degrees(math.atan(0.25)), places=9)
+        alone, _ = self.slopes([(3.5, 0, 0.5)], True)
+        self.assertIsNone(alone["angle_right"])
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -29,6 +29,8 @@ class Clumps(unittest.TestCase):
             self.assertEqual(sorted(angles), [1, 1.5, 3])
             self.assertGreater(angles[3] - angles[1], least, "%s: %s" % (kind, angles))
             self.assertGreater(angles[1.5] - angles[1], least, "%s: %s" % (kind, angles))
+        repose = {aspect: angle for aspect, angle, _ in curves["c", "discs"]}
+        self.assertGreater(repose[3] - repose[1], 5, repose)
         # At rest with friction: more contacts than the least that hold grains, and in 3D more between rods than between spheres.
         touched = {kind: {aspect: z for aspect, z, _ in curves["b", kind]} for kind in ("discs", "spheres")}
         for z in touched["discs"].values():
