@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <ctime>
+#include <thread>
 #include <utility>
 
 #include "common/error.hpp"
@@ -33,20 +35,32 @@ std::string who_has(int file) {
 
 }  // namespace
 
-TryLock try_lock(int file, LockKind kind) {
+static TryLock change_lock(int file, short type) {
   struct flock whole {};
-  whole.l_type = kind == LockKind::alone ? F_WRLCK : F_RDLCK;
+  whole.l_type = type;
   whole.l_whence = SEEK_SET;
   if (::fcntl(file, F_OFD_SETLK, &whole) == 0) return TryLock::got;
   return errno == EAGAIN || errno == EACCES ? TryLock::held_by_another : TryLock::not_possible;
+}
+
+TryLock try_lock(int file, LockKind kind) {
+  return change_lock(file, kind == LockKind::alone ? F_WRLCK : F_RDLCK);
 }
 
 FolderLock::FolderLock(const fs::path& folder, LockKind kind, const std::string& part)
     : name_(part.empty() ? lock_name : fmt::format("{}-{}", lock_name, part)) {
   // Whoever had it may have removed or moved the folder or the lock's file while this process waited for its turn.
   constexpr int tries = 1000;
-  for (int k = 0; k < tries; ++k) {
+  // Or is just about to: who holds it together with others has it alone for a moment in the end.
+  constexpr int waits = 20;
+  constexpr auto moment = std::chrono::milliseconds(5);
+  for (int k = 0, waited = 0; k < tries; ++k) {
     if (!take(folder, kind)) {
+      if (kind == LockKind::together && waited++ < waits) {
+        close();
+        std::this_thread::sleep_for(moment);
+        continue;
+      }
       const auto who = who_has(file_);
       close();
       throw WorkError(
@@ -76,7 +90,13 @@ bool FolderLock::is_current(const fs::path& folder) const {
   struct stat mine {
   }, there{};
   return ::fstat(folder_, &mine) == 0 && ::stat(folder.c_str(), &there) == 0 && is_same(mine, there) &&
-         ::fstat(file_, &mine) == 0 && ::fstatat(folder_, name_.c_str(), &there, 0) == 0 &&
+         has_its_name();
+}
+
+bool FolderLock::has_its_name() const {
+  struct stat mine {
+  }, there{};
+  return ::fstat(file_, &mine) == 0 && ::fstatat(folder_, name_.c_str(), &there, 0) == 0 &&
          is_same(mine, there);
 }
 
@@ -97,8 +117,15 @@ void FolderLock::close() {
 
 FolderLock::~FolderLock() {
   // Of several who hold it together the last one removes the file: the others' lock would be of a file without a name.
-  if (file_ >= 0 && try_lock(file_, LockKind::alone) != TryLock::held_by_another)
-    ::unlinkat(folder_, name_.c_str(), 0);
+  // Two that end at once keep each other from having it alone, until they let go: then one of them is the last.
+  if (file_ >= 0) {
+    auto alone = try_lock(file_, LockKind::alone);
+    if (alone == TryLock::held_by_another) {
+      change_lock(file_, F_UNLCK);
+      alone = try_lock(file_, LockKind::alone);
+    }
+    if (alone != TryLock::held_by_another && has_its_name()) ::unlinkat(folder_, name_.c_str(), 0);
+  }
   close();
 }
 

@@ -44,6 +44,7 @@ class FolderLock {
   bool take(const std::filesystem::path& folder, LockKind kind);
   void close();
   bool is_current(const std::filesystem::path& folder) const;
+  bool has_its_name() const;
   void say_who() const;
 };
 

@@ -24,49 +24,76 @@ ContactMemory<D>::ContactMemory(const laws::ContactLaws& laws, SlipRule rule) : 
   columns_.resize(static_cast<std::size_t>(first_scalar() + (shear_ ? 1 + scalars_ : 0)));
 }
 
+/// What an ended contact leaves to the account.
+template <int D>
+void ContactMemory<D>::release(std::size_t old, double duration) {
+  if (!shear_) return;
+  const auto of = [&](int k) { return older_[static_cast<std::size_t>(k)][old]; };
+  released_ += of(first_scalar());
+  for (int k = 0; k < T; ++k)
+    released_ -= 0.5 * duration * of(first_vector() + T + k) * of(first_vector() + k);
+}
+
+template <int D>
+void ContactMemory<D>::begin() {
+  released_ = 0;
+  older_count_ = std::exchange(count_, 0);
+  first_ = matched_ = 0;
+  std::swap(i_, older_i_);
+  std::swap(j_, older_j_);
+  i_.clear(), j_.clear();
+  std::swap(columns_, older_);
+  columns_.resize(older_.size());
+  // at least one: where nothing was, new contacts still look at the first and make nothing of it
+  const auto have_one = [](Array& column) {
+    if (column.empty()) column.resize(1);
+  };
+  std::ranges::for_each(older_, have_one);
+  if constexpr (D == 3) {
+    if (!shear_) return;
+    std::swap(normal_, older_normal_);
+    std::ranges::for_each(older_normal_, have_one);
+  }
+}
+
 /// Both lists are ordered by (i, j).
 template <int D>
-void ContactMemory<D>::match(const Contacts<D>& contacts, double duration) {
+void ContactMemory<D>::match_piece(const Contacts<D>& contacts, double duration) {
   const std::size_t count = contacts.count;
   source_.resize(count);
-  released_ = 0;
-  const auto end = [&](std::size_t o) {
-    if (!shear_) return;
-    released_ += stored_column()[o];
-    for (int k = 0; k < T; ++k) released_ -= 0.5 * duration * previous_force(k)[o] * previous_slip(k)[o];
-  };
   const auto name = [](const std::int32_t* i, const std::int32_t* j, std::size_t c) {
     return static_cast<std::int64_t>(i[c]) << 32 | j[c];
   };
-  const auto *i = contacts.i.data(), *j = contacts.j.data(), *i_old = i_.data(), *j_old = j_.data();
-  std::size_t o = 0;
+  const auto *i = contacts.i.data(), *j = contacts.j.data(), *i_old = older_i_.data(),
+             *j_old = older_j_.data();
+  std::size_t o = matched_;
   for (std::size_t c = 0; c < count; ++c) {
     const auto now = name(i, j, c);
-    while (o < count_ && name(i_old, j_old, o) < now) end(o++);
-    const bool known = o < count_ && name(i_old, j_old, o) == now;
+    while (o < older_count_ && name(i_old, j_old, o) < now) release(o++, duration);
+    const bool known = o < older_count_ && name(i_old, j_old, o) == now;
     source_[c] = known ? static_cast<std::int32_t>(o) : -1;
     o += known;
   }
-  for (; o < count_; ++o) end(o);
-
-  i_.assign(contacts.i.begin(), contacts.i.begin() + static_cast<std::ptrdiff_t>(count));
-  j_.assign(contacts.j.begin(), contacts.j.begin() + static_cast<std::ptrdiff_t>(count));
-  count_ = count;
-  // at least one: where nothing was, new contacts still look at the first and make nothing of it
-  const std::size_t size = std::max<std::size_t>(1, count);
-  std::swap(columns_, older_);
-  columns_.resize(older_.size());
-  for (auto& column : older_)
-    if (column.empty()) column.resize(1);
-  for (auto& column : columns_) column.resize(size);
+  matched_ = o;
+  i_.insert(i_.end(), i, i + count);
+  j_.insert(j_.end(), j, j + count);
+  first_ = std::exchange(count_, count_ + count);
+  const auto hold_all = [&](Array& column) {
+    if (column.size() < count_) column.resize(count_);
+  };
+  std::ranges::for_each(columns_, hold_all);
   if (!shear_) return;
-  for (auto& way : way_) way.resize(size);
-  if constexpr (D == 3) {
-    std::swap(normal_, older_normal_);
-    for (auto& n : older_normal_)
-      if (n.empty()) n.resize(1);
-    for (auto& n : normal_) n.resize(size);
-  }
+  for (auto& way : way_) way.resize(count);
+  if constexpr (D == 3) std::ranges::for_each(normal_, hold_all);
+}
+
+template <int D>
+void ContactMemory<D>::end(double duration) {
+  while (matched_ < older_count_) release(matched_++, duration);
+  const auto trim = [&](Array& column) { column.resize(std::max<std::size_t>(1, count_)); };
+  std::ranges::for_each(columns_, trim);
+  if constexpr (D == 3)
+    if (shear_) std::ranges::for_each(normal_, trim);
 }
 
 template <int D>
@@ -84,7 +111,7 @@ void ContactMemory<D>::carry(const Grains<D>& grains, const Contacts<D>& contact
   if constexpr (D == 3)
     for (std::size_t k = 0; k < 3; ++k)
       std::copy(contacts.normal[k].data() + range.begin, contacts.normal[k].data() + range.end,
-                normal_[k].data() + range.begin);
+                normal_[k].data() + first_ + range.begin);
 }
 
 /// Velocity of the slip, force, and V − 2 vectors of the law.
@@ -104,7 +131,7 @@ void ContactMemory<D>::carry_vectors(const Grains<D>& grains, const Contacts<D>&
       kernel.normal[k] = contacts.normal[k].data();
     for (std::size_t v = 0; v < static_cast<std::size_t>(V); ++v) {
       const auto at = static_cast<std::size_t>(first_vector()) + v * static_cast<std::size_t>(T) + k;
-      kernel.old[v][k] = older_[at].data(), kernel.now[v][k] = columns_[at].data();
+      kernel.old[v][k] = older_[at].data(), kernel.now[v][k] = columns_[at].data() + first_;
     }
   }
   run_kernel(isa, kernel);
@@ -114,6 +141,7 @@ void ContactMemory<D>::carry_vectors(const Grains<D>& grains, const Contacts<D>&
 /// are components along s, which turns with n as well.
 template <int D>
 void ContactMemory<D>::reorder(std::span<const std::int32_t> place) {
+  first_ = 0;
   std::vector<std::int32_t> from(count_);
   std::iota(from.begin(), from.end(), 0);
   std::vector<char> turned(count_);

@@ -36,7 +36,15 @@ class ContactMemory {
   bool needed() const { return normal_count_ > 0 || shear_; }
 
   /// Finds, in one pass by one thread, where each contact's memory is among those of the previous step.
-  void match(const Contacts<D>& contacts, double duration);
+  void match(const Contacts<D>& contacts, double duration) {
+    begin();
+    match_piece(contacts, duration);
+    end(duration);
+  }
+  /// The same where a step's contacts come in pieces, in their order: what follows is of the last piece, until the next.
+  void begin();
+  void match_piece(const Contacts<D>& contacts, double duration);
+  void end(double duration);
   /// Takes over what contacts in `range` remember, `duration` ago; new ones begin with nothing. Sets `way`: how far the
   /// surfaces of each contact slipped since, for a new contact since it began. After `match`.
   void carry(const Grains<D>& grains, const Contacts<D>& contacts, double duration, Part range, Isa isa);
@@ -46,13 +54,13 @@ class ContactMemory {
   /// walls are numbered `shift` higher.
   void renumber(std::span<const std::int32_t> place, std::int32_t shift);
 
-  /// Where a contact's memory was in the previous step; negative: it began in this one.
+  /// Where a contact's memory was in the previous step; negative: it began in this one. As all below, of the piece.
   const std::int32_t* source() const { return source_.data(); }
   /// What contacts that ended in this step still have to account for: the energy of their springs, which is
   /// lost, and the work of the second half of their last step.
   double released() const { return released_; }
 
-  double* normal_column(int k) { return columns_[static_cast<std::size_t>(k)].data(); }
+  double* normal_column(int k) { return column(k); }
   /// Vector k of the tangential law, component c.
   double* vector_column(int k, int c) { return column(first_vector() + (2 + k) * T + c); }
   double* scalar_column(int k) { return column(first_scalar() + 1 + k); }
@@ -77,8 +85,10 @@ class ContactMemory {
   SlipRule rule_;
   int normal_count_ = 0, vectors_ = 0, scalars_ = 0;
   bool shear_ = false;
-  std::size_t count_ = 0;
-  std::vector<std::int32_t> i_, j_;
+  std::size_t count_ = 0;                      // contacts so far
+  std::size_t first_ = 0;                      // of them, the first of the piece
+  std::size_t older_count_ = 0, matched_ = 0;  // of the previous step, and those of them that went by
+  std::vector<std::int32_t> i_, j_, older_i_, older_j_;
   // normal law's numbers | previous slip, previous force, the law's vectors | stored energy, the law's
   // scalars
   std::vector<Array> columns_, older_;
@@ -89,7 +99,8 @@ class ContactMemory {
 
   int first_vector() const { return normal_count_; }
   int first_scalar() const { return normal_count_ + (shear_ ? (2 + vectors_) * T : 0); }
-  double* column(int k) { return columns_[static_cast<std::size_t>(k)].data(); }
+  double* column(int k) { return columns_[static_cast<std::size_t>(k)].data() + first_; }
+  void release(std::size_t old, double duration);
   template <int V>
   void carry_vectors(const Grains<D>& grains, const Contacts<D>& contacts, double duration, Part range,
                      Isa isa);

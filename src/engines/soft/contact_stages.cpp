@@ -280,6 +280,41 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
 }
 
 template <int D>
+void ContactStages<D>::evaluate_and_apply(const search::Candidates<D>& candidates, const Grains<D>& grains,
+                                          Contacts<D>& piece, double duration, GrainSums<D>& sums) {
+  constexpr std::size_t pairs_in_piece = 2048;  // a third of them touch, several hundred bytes each
+  const std::size_t pairs = candidates.pairs.size();
+  touching_.reserve(pairs_in_piece);
+  piece.deep = 0;
+  memory_.begin();
+  for (std::size_t begin = 0; begin < pairs; begin += pairs_in_piece) {
+    piece.count =
+        find(candidates, grains, {begin, std::min(pairs, begin + pairs_in_piece)}, touching_.pair.data());
+    piece.reserve(piece.count);
+    const Part all{0, piece.count};
+    name(candidates.pairs, touching_.pair.data(), all, grains, piece);
+    pad(piece);
+    memory_.match_piece(piece, duration);
+    geometry(grains, all, piece);
+    remembered_forces(grains, all, piece, duration);
+    apply(piece, grains, duration, sums, Team::alone());
+  }
+  memory_.end(duration);
+}
+
+template <int D>
+void ContactStages<D>::locate(const search::Candidates<D>& candidates, const Grains<D>& grains,
+                              Contacts<D>& contacts) {
+  const Part all_pairs{0, candidates.pairs.size()};
+  touching_.reserve(all_pairs.size());
+  contacts.count = find(candidates, grains, all_pairs, touching_.pair.data());
+  contacts.reserve(contacts.count);
+  name(candidates.pairs, touching_.pair.data(), {0, contacts.count}, grains, contacts);
+  pad(contacts);
+  geometry(grains, {0, contacts.count}, contacts);
+}
+
+template <int D>
 void ContactStages<D>::remembered_forces(const Grains<D>& grains, Part range, Contacts<D>& contacts,
                                          double duration) {
   memory_.carry(grains, contacts, duration, range, isa_);

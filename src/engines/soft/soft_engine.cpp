@@ -82,12 +82,15 @@ void SoftEngine<D>::advance_same_grains(std::int64_t step) {
     if (sorts() && (step_ % setup_.many.sort_every == 0 || renewed)) sort();
     if (advance_in_tiles(step)) continue;
     ++step_;
-    forces(setup_.time_step);
+    forces(setup_.time_step, collecting_ || step_ == step);
     account_.shear_loss += stages_.memory().released();
     account_.shear_loss += walls_.released();
     account_.wall_work += walls_.work();
     if (setup_.tilt) tilt();
-    if (contacts_.deep || walls_.deep()) check_overlaps();
+    if (contacts_.deep || walls_.deep()) {
+      if (!whole_) stages_.locate(candidates(), grains_, contacts_);
+      check_overlaps();
+    }
     if (collecting_) find_impacts();
     if (step_ == step) break;
     integrator_.correct_and_predict(grains_, sums_, *team_);
@@ -115,12 +118,24 @@ search::Candidates<D> SoftEngine<D>::candidates() {
   }
 }
 
-/// Forces on the moving grains must be 0 before.
+/// Forces on the moving grains must be 0 before. Where there are many contacts that remember and nobody looks at them
+/// before the next step, they go piece by piece.
 template <int D>
-void SoftEngine<D>::forces(double duration) {
-  sums_.clear_fixed(contacts_, grains_.moving);
-  stages_.evaluate(candidates(), grains_, contacts_, duration, *team_);
-  stages_.apply(contacts_, grains_, duration, sums_, *team_);
+void SoftEngine<D>::forces(double duration, bool looked_at) {
+  constexpr std::size_t many_pairs = 8192;
+  const auto near = candidates();
+  if (whole_)
+    sums_.clear_fixed(contacts_, grains_.moving);
+  else
+    sums_.clear({grains_.moving, grains_.size()});
+  whole_ = looked_at || team_->size() > 1 || !stages_.memory().needed() || near.pairs.size() < many_pairs;
+  if (whole_) {
+    stages_.evaluate(near, grains_, contacts_, duration, *team_);
+    stages_.apply(contacts_, grains_, duration, sums_, *team_);
+  } else {
+    stages_.evaluate_and_apply(near, grains_, piece_, duration, sums_);
+    contacts_.deep = piece_.deep;
+  }
   walls_.evaluate(grains_, time(), duration, stages_.deepest(), sums_);
 }
 

@@ -62,6 +62,8 @@ class SoftEngine final : public Engine {
   std::int64_t grains_at_start_;   // bed and all: those that come in are numbered from here on
   std::vector<std::int64_t> ids_;  // of all grains as `state()` has them; empty where nobody comes or goes
   Contacts<D> contacts_;
+  Contacts<D> piece_;  // of them, where nobody looks at all
+  bool whole_ = true;  // does contacts_ tell of the last step?
   GrainSums<D> sums_;
   std::array<Array, D> start_place_;  // of the moving grains, for gravity's work
   EnergyAccount account_;             // start, and the losses that are no grain's; the rest when asked for
@@ -82,7 +84,7 @@ class SoftEngine final : public Engine {
   mutable std::array<Array, D> force_by_id_;
 
   search::Candidates<D> candidates();
-  void forces(double duration);
+  void forces(double duration, bool looked_at = true);
   bool sorts() const;
   bool advance_in_tiles(std::int64_t step);
   void sort();

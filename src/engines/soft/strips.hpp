@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -49,6 +50,7 @@ class Strips {
       begin_[s] = std::min(n, (next[s * slices_per_strip] + 4) / 8 * 8);
     std::vector<std::int32_t> from(n);
     for (std::size_t i = 0; i < n; ++i) from[next[slice[i]]++] = static_cast<std::int32_t>(i);
+    if constexpr (D == 3) sort_inside(grains, width / 2, from);
     return from;
   }
 
@@ -66,6 +68,26 @@ class Strips {
  private:
   static constexpr double usual_width = 5, fewest = 24;  // width in largest radii, grains on average
   static constexpr std::size_t slices_per_strip = 8;
+
+  /// In space a strip is a slab of many grains: those beside each other follow each other, by blocks of this width across and,
+  /// in each, by height. A grain's neighbours then lie in few pieces of memory, which stay in the nearest cache meanwhile.
+  void sort_inside(const Grains<D>& grains, double width, std::vector<std::int32_t>& from) const {
+    using Block = std::array<double, 2>;
+    const auto block_of = [&](std::int32_t i) {
+      const auto k = static_cast<std::size_t>(i);
+      Block block{std::floor(grains.position[1][k] / width), std::floor(grains.position[2][k] / width)};
+      for (double& b : block)
+        if (std::isnan(b)) b = 0;  // an order all the same
+      return block;
+    };
+    std::vector<std::pair<Block, std::int32_t>> sorted;
+    for (std::size_t s = 0; s < count(); ++s) {
+      sorted.clear();
+      for (std::size_t k = begin_[s]; k < begin_[s + 1]; ++k) sorted.emplace_back(block_of(from[k]), from[k]);
+      std::ranges::stable_sort(sorted, {}, &std::pair<Block, std::int32_t>::first);
+      for (std::size_t k = begin_[s]; k < begin_[s + 1]; ++k) from[k] = sorted[k - begin_[s]].second;
+    }
+  }
   std::vector<std::size_t> begin_;  // whole cache lines of numbers, but for the end
 };
 
