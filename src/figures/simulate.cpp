@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "common/column_texts.hpp"
@@ -182,6 +183,21 @@ FigureTable from_runs(const DataRecipe& recipe, const fs::path& recipe_file) {
   return table;
 }
 
+/// How often a scene is run for a point of the curve: once a launch, and for a boundary at half of the values that may be looked
+/// at first, then at each bisection.
+double looks_of(const SweepCurve& curve, bool quick) {
+  const auto launches = [](const std::vector<double>& velocities) {
+    return static_cast<double>(std::max<std::size_t>(1, velocities.size()));
+  };
+  if (!curve.boundary) return launches(curve.velocities);
+  const auto& spec = *curve.boundary;
+  const auto values = spec.axis.points(quick);
+  const double step = values.size() > 1 ? values[1] - values[0] : spec.tolerance;
+  const double tolerance = quick ? curve.quick_tolerance.value_or(spec.tolerance) : spec.tolerance;
+  const double bisections = std::max(0.0, std::ceil(std::log2(step / tolerance)));
+  return launches(spec.velocities) * (static_cast<double>(values.size() + 1) / 2 + bisections);
+}
+
 }  // namespace
 
 Work work_of(const DataRecipe& recipe, const fs::path& recipe_file, const fs::path& work, bool quick) {
@@ -211,7 +227,7 @@ Work work_of(const DataRecipe& recipe, const fs::path& recipe_file, const fs::pa
     for (const double x : curve.x.points(quick)) {
       const auto scene = base.with(curve.set).with({curve.x.setting(x)}).scene({});
       found.runs += static_cast<std::size_t>(seeds);
-      found.seconds += run::cost_of(scene) * static_cast<double>(seeds);
+      found.seconds += run::cost_of(scene) * static_cast<double>(seeds) * looks_of(curve, quick);
     }
   }
   return found;
