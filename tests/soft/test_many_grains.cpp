@@ -224,10 +224,15 @@ void check_memories(const Grains<D>& grains, soft::SoftSetup<D> s) {
     CHECK(engine.energy().elastic == Approx(plain.energy().elastic));
   }
 
-  // threads, a checkpoint in between, and looking on the way leave no trace
+  // threads, pieces, a checkpoint in between, and looking on the way leave no trace
   const auto expected = state(engine);
-  for (const int threads : {1, 2}) {
-    s.threads = threads;
+  struct Way {
+    int threads;
+    std::size_t pairs_in_piece;
+  };
+  for (const auto& [threads, piece] : {Way{1, 2048}, Way{2, 2048}, Way{1, 7}, Way{1, 64}}) {
+    s.threads = threads, s.many.pairs_in_piece = piece;
+    INFO("threads " << threads << ", pairs in a piece " << piece);
     soft::SoftEngine<D> first(grains, s), resumed(grains, s);
     first.advance_to(347);
     resumed.advance_to(100);

@@ -281,8 +281,8 @@ void ContactStages<D>::evaluate(const search::Candidates<D>& candidates, const G
 
 template <int D>
 void ContactStages<D>::evaluate_and_apply(const search::Candidates<D>& candidates, const Grains<D>& grains,
-                                          Contacts<D>& piece, double duration, GrainSums<D>& sums) {
-  constexpr std::size_t pairs_in_piece = 2048;  // a third of them touch, several hundred bytes each
+                                          std::size_t pairs_in_piece, Contacts<D>& piece, double duration,
+                                          GrainSums<D>& sums) {
   const std::size_t pairs = candidates.pairs.size();
   touching_.reserve(pairs_in_piece);
   piece.deep = 0;

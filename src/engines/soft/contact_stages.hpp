@@ -40,10 +40,11 @@ class ContactStages {
   void evaluate(const search::Candidates<D>& candidates, const Grains<D>& grains, Contacts<D>& contacts,
                 double duration = 0, Team& team = Team::alone());
 
-  /// The same by one thread and in pieces, each of which is applied (see below) before the next one takes its place in
+  /// The same by one thread and in pieces of so many pairs, each of which is applied (see below) before the next one takes its place in
   /// `piece`: what contacts come to stays in a core's own cache, but is gone in the end, but for `deep`. For laws with a memory.
   void evaluate_and_apply(const search::Candidates<D>& candidates, const Grains<D>& grains,
-                          Contacts<D>& piece, double duration, GrainSums<D>& sums);
+                          std::size_t pairs_in_piece, Contacts<D>& piece, double duration,
+                          GrainSums<D>& sums);
   /// Which contacts there are and their geometry; no forces, and nothing happens to what they remember.
   void locate(const search::Candidates<D>& candidates, const Grains<D>& grains, Contacts<D>& contacts);
 

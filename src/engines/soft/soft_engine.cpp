@@ -122,18 +122,19 @@ search::Candidates<D> SoftEngine<D>::candidates() {
 /// before the next step, they go piece by piece.
 template <int D>
 void SoftEngine<D>::forces(double duration, bool looked_at) {
-  constexpr std::size_t many_pairs = 8192;
+  constexpr std::size_t least_pieces = 4;
   const auto near = candidates();
   if (whole_)
     sums_.clear_fixed(contacts_, grains_.moving);
   else
     sums_.clear({grains_.moving, grains_.size()});
-  whole_ = looked_at || team_->size() > 1 || !stages_.memory().needed() || near.pairs.size() < many_pairs;
+  whole_ = looked_at || team_->size() > 1 || !stages_.memory().needed() ||
+           near.pairs.size() < least_pieces * setup_.many.pairs_in_piece;
   if (whole_) {
     stages_.evaluate(near, grains_, contacts_, duration, *team_);
     stages_.apply(contacts_, grains_, duration, sums_, *team_);
   } else {
-    stages_.evaluate_and_apply(near, grains_, piece_, duration, sums_);
+    stages_.evaluate_and_apply(near, grains_, setup_.many.pairs_in_piece, piece_, duration, sums_);
     contacts_.deep = piece_.deep;
   }
   walls_.evaluate(grains_, time(), duration, stages_.deepest(), sums_);

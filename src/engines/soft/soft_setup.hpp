@@ -24,6 +24,8 @@ struct ManyGrains {
   std::int64_t sort_every = 4096;      ///< steps
   std::size_t grains_per_tile = 4096;  ///< see TimeTiles
   bool tiles = true;
+  /// Of contacts that remember (ContactStages::evaluate_and_apply): a third of the pairs touch, with several hundred bytes each.
+  std::size_t pairs_in_piece = 2048;
 };
 
 /// What a soft-sphere run needs besides its grains.
