@@ -198,6 +198,18 @@ TEST_CASE("a scene goes on from what another run left, with another method too")
       }
     }
   CHECK(last.engine->grains().orientation[0][3] != 1);  // it goes on turned as it was
+  // some of them can be pushed downhill: those that lie higher than the others
+  const auto pushed = make_engine(from({"grains.start={from=\"" + run + "\", velocity=2, above=1.2}"}));
+  const auto rest = last.engine->grains(), some = pushed.engine->grains();
+  int high = 0;
+  for (std::size_t i = 0; i < 40; ++i) {
+    const bool above = rest.position[2][i] > 1.2;
+    high += above;
+    CHECK(some.velocity[0][i] == rest.velocity[0][i] + (above ? 2 : 0));
+    CHECK(some.velocity[2][i] == rest.velocity[2][i]);
+  }
+  CHECK(high > 5);
+  CHECK(high < 35);
   // hard grains take over, in flight and where soft ones overlapped: they move as far as that, and no farther
   const auto settled = make_engine(from({"grains.start={from=\"" + run + "\"}", "engine.method=event"}));
   const auto a = last.engine->grains(), b = settled.engine->grains();
