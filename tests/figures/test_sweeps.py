@@ -82,7 +82,7 @@ class Sweeps(unittest.TestCase):
         best = c["", "e_n=0.4"]
         for name, worst in (("e_n=0.5", 0.06), ("e_n=0.6", 0.12), ("e_n=0.8", 0.35)):
             for x, deviation in against(c["", name], best):
-                if 0.04 < x < 0.1:
+                if 0.04 < x < 0.08:  # behind it e_n = 0.8 has jumped
                     self.assertLess(deviation, 0.01, (name, x))  # velocity falls slightly with e_n
                     self.assertGreater(deviation, -worst, (name, x))
         steepest = {name: max(x for x, _, _ in curve) for (_, name), curve in c.items()}
