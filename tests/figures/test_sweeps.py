@@ -109,7 +109,7 @@ class Sweeps(unittest.TestCase):
         for low, high in zip(lowest, lowest[1:]):
             self.assertGreater(high, low + 0.08)
         for x, deviation in against(c["", "rotating"], c["", "mu=0 e_n=0.7"]):
-            if x < 0.12:
+            if 0.055 < x < 0.12:  # not where it just gets over the beads
                 self.assertLess(abs(deviation), 0.25, x)  # without friction it slides as it would roll, nearly
 
     def test_4_17_theory_from_above(self):
