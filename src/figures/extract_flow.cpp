@@ -179,11 +179,16 @@ std::vector<FigureRow> state(const Curve& curve, std::span<const fs::path> runs)
 
 std::vector<FigureRow> history(const Curve& curve, std::span<const fs::path> runs) {
   std::map<double, std::map<double, std::vector<double>>> at;  // height, time
+  std::map<double, double>
+      first_told;  // a time is one number at all heights, or maps of it have columns without cells
   for (const auto& run : runs) {
     const auto table = read::read_table(run / "history.csv");
     const auto time = table.column("time"), h = table.column("h"), y = table.column(curve.column);
-    for (std::size_t i = 0; i < time.size(); ++i)
-      if (std::isfinite(y[i])) at_same(at[h[i]], time[i]).push_back(y[i]);
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      double& t = at_same(first_told, time[i]);
+      if (t == 0) t = time[i];
+      if (std::isfinite(y[i])) at[h[i]][t].push_back(y[i]);
+    }
   }
   std::vector<FigureRow> rows;
   for (const auto& [h, times] : at)

@@ -129,6 +129,23 @@ TEST_CASE(
   CHECK(map[2].y == Approx(4));
 }
 
+TEST_CASE(
+    "an instant is the same at all heights, whichever run was the first there, so that maps have no empty columns") {
+  const RunFolder a("first"), b("second");
+  a.write("history.csv",
+          "time,h,grains,v_x\n0,0.5,3,1\n27.000000000000004,0.5,3,1\n27.000000000000004,1.5,0,\n");
+  b.write("history.csv", "time,h,grains,v_x\n0,0.5,3,3\n27,0.5,3,3\n27,1.5,1,5\n");
+  Curve curve;
+  curve.series = "s", curve.column = "v_x";
+  const std::vector<fs::path> runs{a.path, b.path};
+  const auto map = history(curve, runs);
+  REQUIRE(map.size() == 3);
+  CHECK(map[0].x == 0);
+  CHECK(map[1].y == 2);
+  CHECK(map[2].y == 5);
+  CHECK(map[2].x == map[1].x);
+}
+
 TEST_CASE("an instant of several runs is one, whatever their steps make of its last digits") {
   const RunFolder a("step_a"), b("step_b"), c("step_c");
   a.write("series.csv", "time,v_x\n0,1\n2.9999999999999996,1\n4,1\n");
