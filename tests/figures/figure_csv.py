@@ -11,7 +11,6 @@ import tempfile
 import unittest
 
 OPTIONS = sys.argv[2:]
-FULL = "full" in OPTIONS
 THERE = next((o for o in OPTIONS if os.path.isdir(o)), None)
 
 
@@ -25,7 +24,7 @@ class Figures:
         folder = tempfile.TemporaryDirectory()
         self.folder = folder.name
         unittest.addModuleCleanup(folder.cleanup)
-        quick = [] if FULL else ["--quick"]
+        quick = [] if "full" in OPTIONS else ["--quick"]
         subprocess.run([chute, "figure", *names, *quick, "--quiet", "--jobs", "2", "-o", self.folder], check=True)
 
     def curves(self, name):
