@@ -179,8 +179,8 @@ std::vector<FigureRow> state(const Curve& curve, std::span<const fs::path> runs)
 
 std::vector<FigureRow> history(const Curve& curve, std::span<const fs::path> runs) {
   std::map<double, std::map<double, std::vector<double>>> at;  // height, time
-  std::map<double, double>
-      first_told;  // a time is one number at all heights, or maps of it have columns without cells
+  // A time is one number at all heights, or maps of it have columns without cells.
+  std::map<double, double> first_told;
   for (const auto& run : runs) {
     const auto table = read::read_table(run / "history.csv");
     const auto time = table.column("time"), h = table.column("h"), y = table.column(curve.column);

@@ -92,19 +92,19 @@ TEST_CASE("shapes can be those of materials, and grains of a material without on
 }
 
 TEST_CASE("the step sees the tips of light rods, and not those that heavy ones would have") {
-  const auto step = [](const std::string& rod, const std::string& light, const std::string& more) {
+  const auto step = [](const std::string& rod, const std::string& light) {
     const auto scene =
         shaped("[[material]]\nname = \"a\"\nshare = 0.5\ndensity = " + light +
                    "\n[[material]]\nname = \"b\"\nshare = 0.5\n"
                    "density = 8\n[[contact.between]]\nmaterials = [\"a\", \"b\"]\nrestitution = 0.6\n" +
-                   more + (rod.empty() ? "" : rods + "material = \"" + rod + "\"\n"),
+                   (rod.empty() ? "" : rods + "material = \"" + rod + "\"\n"),
                {"grains.diameter.std=0", "output.series.every=1e6"});
     return scene.engine->step(scene::setting_of(scene));
   };
   const double tip = std::sqrt(scene::sizes_of_forms(shaped(rods)).front().lightest);
-  CHECK(step("", "1", "") / step("", "4", "") == Approx(0.5).epsilon(1e-2));
-  CHECK(step("a", "1", "") / step("", "1", "") == Approx(tip).epsilon(1e-2));
-  CHECK(step("b", "1", "") == Approx(step("", "1", "")).epsilon(1e-2));
+  CHECK(step("", "1") / step("", "4") == Approx(0.5).epsilon(1e-2));
+  CHECK(step("a", "1") / step("", "1") == Approx(tip).epsilon(1e-2));
+  CHECK(step("b", "1") == Approx(step("", "1")).epsilon(1e-2));
 }
 
 TEST_CASE("orientations are drawn evenly, in the plane and in space") {
