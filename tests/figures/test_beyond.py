@@ -53,6 +53,13 @@ set = ["incline.angle=30 deg"]
 after = ["incline.angle=18 deg", "run.duration=2"]
 extract = "series"
 column = "v_x"
+[[data.curve]]
+series = "pushed"
+set = ["incline.angle=30 deg"]
+after = ["incline.angle=18 deg", "run.duration=2"]
+go_on = ["grains.start.velocity=2"]
+extract = "series"
+column = "v_x"
 [plot]
 """
         with tempfile.TemporaryDirectory() as folder:
@@ -61,7 +68,8 @@ column = "v_x"
                 with open(at(name), "w", encoding="utf-8") as file:
                     file.write(text)
             subprocess.run([chute, "figure", at("after.toml"), "-o", at("figures"), "--quiet"], check=True)
-            told = read_curves(at("figures/after.csv"))["", "then"]
+            curves = read_curves(at("figures/after.csv"))
+            told, pushed = curves["", "then"], curves["", "pushed"]
             subprocess.run([chute, "run", at("flow.toml"), "-o", at("first"), "--quiet"], check=True)
             subprocess.run([chute, "run", at("flow.toml"), "-o", at("second"), "--quiet", "--set", "incline.angle=30 deg", "--set",
                             "run.duration=1", "--set", "grains={start={from='%s'}}" % at("first")], check=True)
@@ -72,6 +80,7 @@ column = "v_x"
             self.assertAlmostEqual(x, float(row["time"]))
             self.assertAlmostEqual(y, float(row["v_x"]), delta=1e-9)
         self.assertGreater(told[0][1], 0.3, "it did not begin with what flowed before")
+        self.assertAlmostEqual(pushed[0][1], told[0][1] + 2, delta=1e-9)
 
 
 if __name__ == "__main__":
